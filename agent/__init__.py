@@ -1,0 +1,9 @@
+"""The loop that joins model, inference and planning: perceive, infer, learn, grow, plan, act."""
+
+from __future__ import annotations
+
+from .agent import Agent
+from .settings import Settings
+from .trace import StepRecord
+
+__all__ = ["Agent", "Settings", "StepRecord"]

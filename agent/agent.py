@@ -1,0 +1,277 @@
+"""The loop that joins it all: perceive, infer, learn, grow, plan, act."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Hashable, Mapping, Sequence
+from os import PathLike
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inference.filter import advance, begin
+from ..inference.message import Belief, Evidence
+from ..model.cognitive_map import CognitiveMap
+from ..model.errors import CogmapError
+from ..model.factor_graph import FactorGraph
+from ..model.map_state import map_arrays, restore_map
+from ..model.motions import Motions, MotionSpec
+from ..model.slices import Slice, take_slice, window_graph
+from ..planning import Plan, plan
+from ..planning.horizon import Preferences, cut_reach
+from .labels import decode, encode
+from .mapper import Mapper
+from .perception import perceive
+from .settings import Settings
+from .state import Arrays, belief_state, restore_belief, restore_window, window_state
+from .trace import StepRecord
+
+
+class Agent:
+    """An agent that builds its own map.
+
+    It is given observations only (`{"sight": label, "open": truth values over the actions}`) and answers with
+    actions; it starts at what it calls the origin, and never learns where that is in the world.
+
+    Args:
+        motions: names and displacements of the actions: `world.motions`, or a mapping name -> displacement.
+        settings: every knob; see `Settings`.
+        seed: of the generator that breaks ties and draws policies.
+
+    Attributes:
+        map: what it believes the world to be.
+        settings: its settings; they never change.
+        trace: one record a step.
+
+    Raises:
+        CogmapError: motions or settings that make no sense.
+    """
+
+    def __init__(
+        self,
+        motions: MotionSpec | Mapping[str, Sequence[int]],
+        *,
+        settings: Settings | None = None,
+        seed: int | None = None,
+    ) -> None:
+        self.settings = settings or Settings()
+        self.map = CognitiveMap(Motions.of(motions), priors=self.settings.priors)
+        self.trace: list[StepRecord] = []
+        self._rng = np.random.default_rng(seed)
+        self._mapper = Mapper(self.map, self.settings)
+        self._window: deque[Slice] = deque(maxlen=self.settings.window + 1)
+        self._pending = 0
+        self._belief: Belief | None = None
+        self._plan: Plan | None = None
+        self._steps = 0
+        self._action: int | None = None
+        self._open: tuple[bool, ...] = ()
+        self._goals: dict[Hashable, float] = {}
+        self._mapper.begin()
+
+    # -- the public face -----------------------------------------------------------------------------------
+
+    @property
+    def steps(self) -> int:
+        """Observations taken in so far."""
+        return self._steps
+
+    @property
+    def belief(self) -> Belief:
+        """What it believes about where it is, after the last observation."""
+        if self._belief is None:
+            raise CogmapError("agent: it has seen nothing yet; call step(observation) first")
+        return self._belief
+
+    @property
+    def certain(self) -> bool:
+        """Whether one place holds enough of the belief to learn (paper's threshold: 0.7)."""
+        return self.belief.certainty >= self.settings.certainty
+
+    @property
+    def plan(self) -> Plan:
+        """What it considered at the last step, and what it chose."""
+        if self._plan is None:
+            raise CogmapError("agent: it has planned nothing yet; call step(observation) first")
+        return self._plan
+
+    @property
+    def graph(self) -> FactorGraph:
+        """The factor graph of the current window."""
+        return window_graph(self.map, list(self._window))
+
+    def prefer(self, goals: Mapping[Hashable, float]) -> None:
+        """Set log preferences of sights over all others, in nats (before `goal_weight`); none explores.
+
+        Sights never met are allowed: until they are, "something new" carries the hope.
+        """
+        for label, value in goals.items():
+            if not np.isfinite(value):
+                raise CogmapError(
+                    f"agent: preference {value} of {label!r} is not finite; give a log preference in nats"
+                )
+        self._goals = dict(goals)
+
+    def step(self, observation: Mapping[str, Any]) -> int:
+        """Take in one observation and answer with the index of the next action.
+
+        Raises:
+            CogmapError: the observation lacks a key, or has a wrong number of doors.
+        """
+        label, open_ = perceive(observation, self.map.motions)
+        grown = len(self.map.growth)
+        self.map.grow_time(step=self._steps)
+        sight = self.map.new_sight(label, step=self._steps)
+        evidence = self._infer(sight, open_)
+        self._remember(evidence)
+        self._learn(evidence)
+        self._choose()
+        self._record(label, open_, grown)
+        self._action, self._open = self.plan.action, open_
+        self._steps += 1
+        return self.plan.action
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write everything the agent knows to an npz file (JSON header, schema version, no pickle)."""
+        from .storage import save
+
+        save(self, path)
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Agent:
+        """The agent that `save` wrote; it walks on exactly as that one would have.
+
+        Raises:
+            CogmapError: no such file, or it is no saved map, truncated, or from a newer schema.
+        """
+        from .storage import load
+
+        return load(path)
+
+    def state(self) -> tuple[dict[str, Any], Arrays]:
+        """Everything that the next steps depend on: a JSON header and arrays (the trace is left out)."""
+        belief, belief_arrays = belief_state(self._belief)
+        window, window_arrays = window_state(list(self._window))
+        header = {
+            "motions": {"names": self.map.motions.names, "displacements": self.map.motions.displacements},
+            "settings": self.settings.to_dict(),
+            "sights": [encode(label) for label in self.map.sights],
+            "positions": [encode(label) for label in self.map.positions],
+            "goals": [[encode(label), value] for label, value in self._goals.items()],
+            "steps": self._steps,
+            "pending": self._pending,
+            "action": self._action,
+            "open": self._open,
+            "rng": self._rng.bit_generator.state,
+            "belief": belief,
+            "window": window,
+        }
+        return header, {**map_arrays(self.map), **belief_arrays, **window_arrays}
+
+    @classmethod
+    def from_state(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> Agent:
+        """The agent that `state` took apart."""
+        motions = dict(zip(header["motions"]["names"], header["motions"]["displacements"], strict=True))
+        agent = cls(motions, settings=Settings.from_dict(header["settings"]))
+        agent.map = CognitiveMap(Motions.of(motions), priors=agent.settings.priors)
+        labels = ([decode(label) for label in header[name]] for name in ("sights", "positions"))
+        restore_map(agent.map, arrays, *labels)
+        agent._mapper = Mapper(agent.map, agent.settings)
+        agent._goals = {decode(label): value for label, value in header["goals"]}
+        agent._steps, agent._pending, agent._action = header["steps"], header["pending"], header["action"]
+        agent._open = tuple(header["open"])
+        agent._rng.bit_generator.state = header["rng"]
+        agent._belief = restore_belief(header["belief"], arrays)
+        agent._window.extend(restore_window(header["window"], arrays))
+        return agent
+
+    def __repr__(self) -> str:
+        return f"Agent({self.map!r}, step {self._steps})"
+
+    # -- the parts of a step -------------------------------------------------------------------------------
+
+    def _infer(self, sight: int, open_: tuple[bool, ...]) -> Evidence:
+        action = self._action
+        was_open = action is not None and self._open[action]
+        evidence = Evidence(action=action, was_open=was_open, sight=sight, open=open_)
+        if self._belief is None:
+            self._belief = begin(self.map, 0, evidence)
+        else:
+            if action is not None and was_open and self.certain:
+                self._mapper.enter(self._belief.place, action, step=self._steps)
+            self._belief = advance(self.map, self._belief.message, evidence, self.settings.filter)
+        return evidence
+
+    def _remember(self, evidence: Evidence) -> None:
+        """Add the slice of this step to the window, with the tables as they are now."""
+        message, options = self.belief.message, self.settings.filter
+        self._window.append(
+            take_slice(
+                self.map,
+                self._window[-1] if self._window else None,
+                (message.places, message.positions, message.mass),
+                step=self._steps,
+                action=evidence.action,
+                was_open=evidence.was_open,
+                sight=evidence.sight,
+                open_=evidence.open,
+                slip=options.slip,
+                displacement=(1.0 - options.displacement, options.displacement * self.belief.examined),
+            )
+        )
+
+    def _learn(self, evidence: Evidence) -> None:
+        if not self.certain:
+            self._pending += 1
+            return
+        if self._pending:
+            self._mapper.catch_up(list(self._window)[:-1], self._pending, step=self._steps)
+            self._pending = 0
+        self._mapper.learn(self.belief, evidence, step=self._steps)
+
+    def _choose(self) -> None:
+        settings = self.settings
+        places, q = self.belief.message.by_place()
+        reach = cut_reach(self.map, places, q, look_ahead=settings.look_ahead, preferences=self._preferences())
+        self._plan = plan(
+            reach,
+            generator=settings.policies,
+            precision=settings.precision,
+            choice=settings.choice,
+            rng=self._rng,
+            beam=settings.beam,
+        )
+
+    def _preferences(self) -> Preferences:
+        sights: dict[int, float] = {}
+        for label, value in self._goals.items():
+            known = self.map.sights.find(label)
+            key = -1 if known is None else known
+            sights[key] = max(sights.get(key, -np.inf), self.settings.goal_weight * value)
+        return Preferences(sights=sights, collision_cost=self.settings.collision_cost)
+
+    def _record(self, label: Hashable, open_: tuple[bool, ...], grown: int) -> None:
+        belief, plan_ = self.belief, self.plan
+        self.trace.append(
+            StepRecord(
+                step=self._steps,
+                sight=label,
+                open=open_,
+                places=belief.places,
+                certainty=belief.certainty,
+                certain=self.certain,
+                moved=belief.moved,
+                dropped=belief.dropped,
+                evidence=belief.evidence,
+                complexity=belief.complexity,
+                accuracy=belief.accuracy,
+                grown=tuple(self.map.growth[grown:]),
+                learned=self._mapper.take_lessons(),
+                policy=tuple(plan_.policy.tolist()),
+                probability=float(plan_.probability[plan_.chosen]),
+                G=plan_.expected_free_energy.row(plan_.chosen),
+                policies=len(plan_.policies),
+                action=plan_.action,
+            )
+        )

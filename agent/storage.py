@@ -1,0 +1,94 @@
+"""Agents in npz files: arrays, and a JSON header with a schema version; no pickle."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+import zipfile
+import zlib
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.errors import CogmapError
+
+if TYPE_CHECKING:
+    from .agent import Agent
+
+SCHEMA = 1
+"""Version of the layout of the file."""
+
+FORMAT = "cogmap agent"
+
+
+def save(agent: Agent, path: str | PathLike[str]) -> None:
+    """Write the agent; the file is replaced whole, or not at all.
+
+    Raises:
+        CogmapError: a label cannot be written, or the folder cannot be.
+    """
+    header, arrays = agent.state()
+    header = {"format": FORMAT, "schema": SCHEMA, **header}
+    packed = np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8)
+    target = Path(path)
+    try:
+        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part")
+    except OSError as error:
+        raise CogmapError(
+            f"save: cannot write into {target.parent} ({error.strerror}); choose another folder"
+        ) from error
+    try:
+        with os.fdopen(handle, "wb") as file:
+            np.savez(file, header=packed, **arrays)  # pyright: ignore[reportArgumentType]
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, target)
+    except OSError as error:
+        Path(temporary).unlink(missing_ok=True)
+        raise CogmapError(f"save: cannot write {target} ({error.strerror}); choose another file") from error
+
+
+def load(path: str | PathLike[str]) -> Agent:
+    """The agent in the file.
+
+    Raises:
+        CogmapError: no such file, no saved agent, truncated, or written by a newer version.
+    """
+    from .agent import Agent
+
+    arrays = _read(Path(path))
+    header = _header(Path(path), arrays)
+    try:
+        return Agent.from_state(header, arrays)
+    except (KeyError, IndexError, TypeError, ValueError) as error:
+        raise CogmapError(f"load: {path} is damaged ({type(error).__name__}: {error}); save the agent again") from error
+
+
+def _read(path: Path) -> dict[str, NDArray[Any]]:
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            if not isinstance(file, np.lib.npyio.NpzFile):
+                raise CogmapError(f"load: {path} is no saved agent but a single array; give a file that save wrote")
+            return {name: file[name] for name in file.files}
+    except FileNotFoundError as error:
+        raise CogmapError(f"load: there is no file {path}; give a file that save wrote") from error
+    except (OSError, EOFError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+        if isinstance(error, CogmapError):
+            raise
+        raise CogmapError(f"load: {path} is no saved agent, or truncated; give a file that save wrote") from error
+
+
+def _header(path: Path, arrays: dict[str, NDArray[Any]]) -> dict[str, Any]:
+    try:
+        header: dict[str, Any] = json.loads(arrays["header"].tobytes())
+        schema = int(header["schema"]) if header["format"] == FORMAT else -1
+    except (KeyError, TypeError, ValueError) as error:
+        raise CogmapError(f"load: {path} is no saved agent (no header); give a file that save wrote") from error
+    if schema < 0:
+        raise CogmapError(f"load: {path} is a {header['format']!r}, no saved agent; give a file that save wrote")
+    if schema > SCHEMA:
+        raise CogmapError(f"load: {path} has schema {schema}, newer than {SCHEMA}; update cogmap to read it")
+    return header

@@ -1,0 +1,46 @@
+"""The random walk."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..worlds import Motions
+from .reckoning import Place, Reckoner
+
+
+class RandomAgent:
+    """Takes any open way but `stay`, uniformly; stays where there is none.
+
+    Args:
+        motions: the actions, such as `world.motions`.
+        seed: of the random choices.
+    """
+
+    def __init__(self, motions: Motions, *, seed: int | np.random.SeedSequence | None = None) -> None:
+        self._reckoner = Reckoner(motions)
+        self._rng = np.random.default_rng(seed)
+        self._action: int | None = None
+
+    @property
+    def position(self) -> Place:
+        """Where the agent takes itself to be, relative to its start."""
+        return self._reckoner.track.place
+
+    @property
+    def visited(self) -> frozenset[Place]:
+        """The places entered, relative to the start."""
+        return frozenset(self._reckoner.track.sights)
+
+    def step(self, observation: Mapping[str, Any]) -> int:
+        """The next action after `{"sight": label, "open": flag an action}`.
+
+        Raises:
+            WorldError: the observation lacks a part or has another number of actions.
+        """
+        is_open = self._reckoner.sense(self._action, observation)
+        ways = [action for action, free in enumerate(is_open) if free and action != self._reckoner.stay]
+        self._action = ways[int(self._rng.integers(len(ways)))] if ways else self._reckoner.stay
+        return self._action

@@ -1,0 +1,134 @@
+"""The forward filter: exact sum-product over one time step of the sparse map.
+
+    Q(s_t, p_t) ∝ A_o[o_t, s_t] c_t(s_t) A_p(p_t, s_t) Σ B_s[a](s_t, s_t-1) B_p[a](p_t, p_t-1) Q(s_t-1, p_t-1)
+
+with the latent `moved_t`: with a small probability the agent was put into any visited place instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.cognitive_map import CognitiveMap
+from .message import Belief, Evidence, FilterOptions, Message
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class _Candidates:
+    """Weighted pairs `[m]` before the evidence of this step; `source` indexes the message they come from."""
+
+    places: Ints
+    positions: Ints
+    weight: Floats
+    source: Ints
+
+
+def begin(map_: CognitiveMap, place: int, evidence: Evidence) -> Belief:
+    """The belief of an agent that knows to be in `place`, after its first evidence."""
+    start = np.array([place])
+    prior = _Candidates(start, map_.position_index[start], np.ones(1), np.zeros(1, dtype=np.int64))
+    return _update(map_, None, prior, None, evidence, FilterOptions(support=0.0))
+
+
+def advance(map_: CognitiveMap, message: Message, evidence: Evidence, options: FilterOptions) -> Belief:
+    """The belief after one more action and its evidence."""
+    walked = _walk(map_, message, evidence, options)
+    share = walked.weight * likelihood(map_, walked.places, evidence.sight, evidence.open)
+    unmoved = float(share.sum())
+    if options.displacement <= options.support * unmoved:  # even a perfect match elsewhere would be dropped
+        return _update(map_, message, walked, None, evidence, options)
+    return _update(map_, message, walked, _displaced(map_, options), evidence, options)
+
+
+def likelihood(map_: CognitiveMap, places: Ints, sight: int, open_: Sequence[bool]) -> Floats:
+    """`[n]` P(o, c | s): the sight, and the doors as sensed, given each place."""
+    return map_.A_o.probability(sight, places) * map_.doors_likelihood(places, open_)
+
+
+def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: FilterOptions) -> _Candidates:
+    """Where the action leads: each successor, with the position moved or not, where A_p allows the two together."""
+    action = evidence.action
+    assert action is not None
+    keys, p, _ = map_.B_s.mean(map_.rows(message.places, action))
+    moves = 1.0 - options.slip if evidence.was_open else options.slip
+    if action == map_.motions.stay:
+        moves = 1.0
+    ahead = map_.position_beyond[message.positions, action]
+    n, slots = keys.shape
+    places = np.concatenate([keys.ravel(), keys.ravel()])
+    positions = np.repeat(np.concatenate([ahead, message.positions]), slots)
+    weight = (message.mass[:, None] * p).ravel()
+    weight = np.concatenate([weight * moves, weight * (1.0 - moves)]) * (1.0 - options.displacement)
+    source = np.tile(np.repeat(np.arange(n), slots), 2)
+    real = (places >= 0) & (positions >= 0) & (weight > 0.0)
+    places, positions, weight, source = places[real], positions[real], weight[real], source[real]
+    weight = weight * map_.A_p.probability(positions, places)
+    fits = weight > 0.0
+    return _Candidates(places[fits], positions[fits], weight[fits], source[fits])
+
+
+def _displaced(map_: CognitiveMap, options: FilterOptions) -> _Candidates:
+    """Every visited place with its positions, all alike."""
+    visited = map_.visited_places
+    keys, p, _ = map_.A_p.mean(visited)
+    places = np.repeat(visited, keys.shape[1])
+    weight = (p * (options.displacement / max(len(visited), 1))).ravel()
+    real = weight > 0.0
+    return _Candidates(places[real], keys.ravel()[real], weight[real], np.full(int(real.sum()), -1))
+
+
+def _update(
+    map_: CognitiveMap,
+    message: Message | None,
+    walked: _Candidates,
+    displaced: _Candidates | None,
+    evidence: Evidence,
+    options: FilterOptions,
+) -> Belief:
+    parts = [walked] if displaced is None else [walked, displaced]
+    places = np.concatenate([part.places for part in parts])
+    positions = np.concatenate([part.positions for part in parts])
+    weight = np.concatenate([part.weight for part in parts])
+    pairs, pair = np.unique(places * len(map_.positions) + positions, return_inverse=True)
+    pair_places, pair_positions = np.divmod(pairs, len(map_.positions))
+    predicted = np.bincount(pair, weights=weight, minlength=len(pairs))
+    like = likelihood(map_, pair_places, evidence.sight, evidence.open)
+    joint = predicted * like
+    total = joint.sum()
+    kept = _support(pair_places, joint / total, options.support)
+    z = float(joint[kept].sum())
+    q = joint[kept] / z
+    walked_mass = np.where(kept[pair[: len(walked.weight)]], walked.weight * like[pair[: len(walked.weight)]], 0.0) / z
+    unexamined = 0.0 if displaced is not None or message is None else options.displacement / (options.displacement + z)
+    return Belief(
+        message=Message(pair_places[kept], pair_positions[kept], q),
+        evidence=float(np.log(z)),
+        complexity=float(q @ np.log(q / predicted[kept])),
+        accuracy=float(q @ np.log(like[kept])),
+        moved=max(0.0, 1.0 - float(walked_mass.sum())) if displaced is not None else 0.0,
+        dropped=1.0 - z / float(total) + unexamined,
+        examined=displaced is not None,
+        walks=_walks(message, walked, walked_mass),
+    )
+
+
+def _support(places: Ints, q: Floats, threshold: float) -> NDArray[np.bool_]:
+    """Pairs of the places that hold at least `threshold`; the best place always stays."""
+    _, inverse = np.unique(places, return_inverse=True)
+    mass = np.bincount(inverse, weights=q)
+    return (mass >= min(threshold, float(mass.max())))[inverse]
+
+
+def _walks(message: Message | None, walked: _Candidates, mass: Floats) -> tuple[Ints, Ints, Floats]:
+    if message is None:
+        none = np.zeros(0, dtype=np.int64)
+        return none, none, np.zeros(0)
+    held = mass > 0.0
+    return message.places[walked.source[held]], walked.places[held], mass[held]

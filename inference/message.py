@@ -1,0 +1,124 @@
+"""What is carried from one time step to the next, and what was learned from it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+def _summed(values: Ints, mass: Floats) -> tuple[Ints, Floats]:
+    distinct, inverse = np.unique(values, return_inverse=True)
+    return distinct, np.bincount(inverse, weights=mass, minlength=len(distinct)).astype(np.float64)
+
+
+def _ranked(values: Ints, mass: Floats) -> dict[int, float]:
+    distinct, total = _summed(values, mass)
+    order = np.argsort(-total, kind="stable")
+    return dict(zip(distinct[order].tolist(), total[order].tolist(), strict=True))
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """A filtered joint Q(s, p) over the pairs that hold mass.
+
+    Attributes:
+        places: `[n]` place of each pair.
+        positions: `[n]` position (by number) of each pair.
+        mass: `[n]` probability of each pair; sums to one.
+    """
+
+    places: Ints
+    positions: Ints
+    mass: Floats
+
+    def by_place(self) -> tuple[Ints, Floats]:
+        """The places that hold mass, in ascending order, and Q(s)."""
+        return _summed(self.places, self.mass)
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """What was done and then sensed at one time step.
+
+    Attributes:
+        action: the action that led here; None at the first step.
+        was_open: whether its door had been sensed open before.
+        sight: number of the sight.
+        open: for each action, whether its way is open here.
+    """
+
+    action: int | None
+    was_open: bool
+    sight: int
+    open: Sequence[bool]
+
+
+@dataclass(frozen=True, slots=True)
+class FilterOptions:
+    """How the filter predicts and what it may drop.
+
+    Attributes:
+        displacement: P(moved_t): the agent was put into some visited place without being told.
+        slip: P that a motion through an open door does not change the position, or through a blocked one does.
+        support: posterior mass below which a place leaves the support.
+    """
+
+    displacement: float = 1e-4
+    slip: float = 1e-3
+    support: float = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Belief:
+    """What the agent believes after one time step.
+
+    Attributes:
+        message: Q(s_t, p_t | o_1..t).
+        evidence: log P(o_t, c_t | the past), in nats, of what was kept.
+        complexity: KL from the predicted to the filtered Q(s_t, p_t), in nats.
+        accuracy: E_Q[log P(o_t, c_t | s_t)], in nats.
+        moved: P(moved_t | o_1..t).
+        dropped: posterior mass that was left out of the support, at most.
+        examined: whether being displaced was examined; if not, all of it would have been dropped.
+        walks: pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`.
+    """
+
+    message: Message
+    evidence: float
+    complexity: float
+    accuracy: float
+    moved: float
+    dropped: float
+    examined: bool
+    walks: tuple[Ints, Ints, Floats]
+
+    @property
+    def free_energy(self) -> float:
+        """F = complexity - accuracy = -log evidence (eq. 3, at the exact posterior), in nats."""
+        return self.complexity - self.accuracy
+
+    @property
+    def places(self) -> dict[int, float]:
+        """Q(s_t) of the places that hold mass, the most probable first."""
+        return _ranked(self.message.places, self.message.mass)
+
+    @property
+    def positions(self) -> dict[int, float]:
+        """Q(p_t) of the positions (by number) that hold mass, the most probable first."""
+        return _ranked(self.message.positions, self.message.mass)
+
+    @property
+    def place(self) -> int:
+        """The most probable place."""
+        return next(iter(self.places))
+
+    @property
+    def certainty(self) -> float:
+        """Q of the most probable place."""
+        return float(self.message.by_place()[1].max())

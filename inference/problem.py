@@ -1,0 +1,136 @@
+"""A graph and its evidence, reduced to what an engine has to sum over."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..model.factor_graph import FactorGraph
+from ..model.factors import FloatArray, IntArray
+from .errors import ImpossibleEvidence, impossible
+from .evidence import fixed_indices
+from .substitution import Table, substitute
+
+Where = tuple[int | None, IntArray | int | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Tables over the variables that are left once everything known is taken out.
+
+    Observed variables and those of one label are sliced away. A variable that another one determines
+    (a one-hot table between the two) is replaced by it where that costs nothing, see `substitution`.
+
+    Attributes:
+        graph: the graph asked about.
+        given: the evidence, labels by name.
+        names: name of each variable left; tables speak of them by index.
+        cards: number of labels of each, all at least 2.
+        times: time step of each.
+        tables: pairs (indices of the variables, values with one axis each, the largest value 1).
+        log_scale: log of the factor taken out of the tables.
+        where: for each variable of the graph: (index of the variable left that carries it or None,
+            map from that one's labels to its own, or the fixed index, or None where they are the same).
+    """
+
+    graph: FactorGraph
+    given: Mapping[str, Hashable]
+    names: tuple[str, ...]
+    cards: tuple[int, ...]
+    times: tuple[int | None, ...]
+    tables: tuple[Table, ...]
+    log_scale: float
+    where: Mapping[str, Where]
+
+    def carriers(self, names: Sequence[str]) -> tuple[int, ...]:
+        """The variables left that carry `names`, each once, in order of appearance."""
+        found = (self.where[name][0] for name in names)
+        return tuple(dict.fromkeys(index for index in found if index is not None))
+
+    def expand(self, names: Sequence[str], carriers: Sequence[int], joint: FloatArray) -> FloatArray:
+        """The joint over `names`, from the joint over their carriers (axes in that order)."""
+        if len(carriers) == len(names) and all(self.where[name][1] is None for name in names):
+            return joint
+        shape = tuple(self.graph.variable_named(name).cardinality for name in names)
+        flat: IntArray = np.zeros((1,) * len(carriers), dtype=np.int64)
+        for name, card in zip(names, shape, strict=True):
+            flat = flat * card + self._own_index(name, carriers)
+        flat = np.broadcast_to(flat, joint.shape)
+        size = math.prod(shape)
+        return np.bincount(flat.ravel(), weights=joint.ravel(), minlength=size).reshape(shape)
+
+    def labels(self, indices: Sequence[int]) -> dict[str, Hashable]:
+        """The assignment of every variable of the graph, from an index for each variable left."""
+        result: dict[str, Hashable] = {}
+        for variable in self.graph.variables:
+            carrier, mapping = self.where[variable.name]
+            own = mapping if carrier is None else indices[carrier]
+            if isinstance(mapping, np.ndarray):
+                own = int(mapping[own])
+            assert isinstance(own, int)
+            result[variable.name] = variable.domain[own]
+        return result
+
+    def _own_index(self, name: str, carriers: Sequence[int]) -> IntArray:
+        """Index of `name`, broadcastable over the axes of its carriers."""
+        carrier, mapping = self.where[name]
+        if carrier is None:
+            return np.full((1,) * len(carriers), mapping)
+        own = np.arange(self.cards[carrier]) if mapping is None else np.asarray(mapping)
+        return own.reshape([-1 if each == carrier else 1 for each in carriers])
+
+
+def reduce(graph: FactorGraph, given: Mapping[str, Hashable]) -> Problem:
+    """Slice the evidence out of every factor, substitute determined variables, scale tables to maximum 1.
+
+    Raises:
+        ImpossibleEvidence: a factor is zero everywhere under the evidence.
+    """
+    fixed = fixed_indices(graph, given)
+    free = [variable for variable in graph.variables if variable.name not in fixed]
+    index = {variable.name: i for i, variable in enumerate(free)}
+    tables, log_scale = _sliced(graph, given, fixed, index)
+    parents, tables = substitute(tables, len(free))
+    left = [i for i in range(len(free)) if i not in parents]
+    new = {old: i for i, old in enumerate(left)}
+    where: dict[str, Where] = {name: (None, at) for name, at in fixed.items()}
+    for name, old in index.items():
+        root, mapping = parents.get(old, (old, None))
+        where[name] = (new[root], mapping)
+    return Problem(
+        graph=graph,
+        given=given,
+        names=tuple(free[i].name for i in left),
+        cards=tuple(free[i].cardinality for i in left),
+        times=tuple(free[i].time for i in left),
+        tables=tuple((tuple(new[i] for i in scope), values) for scope, values in tables),
+        log_scale=log_scale,
+        where=where,
+    )
+
+
+def _sliced(
+    graph: FactorGraph, given: Mapping[str, Hashable], fixed: Mapping[str, int], index: Mapping[str, int]
+) -> tuple[list[Table], float]:
+    tables: list[Table] = []
+    log_scale = 0.0
+    for factor in graph.factors:
+        names = [variable.name for variable in factor.scope]
+        values = factor.dense()
+        if any(name in fixed for name in names):
+            values = values[tuple(fixed.get(name, slice(None)) for name in names)]
+        largest = float(values.max())
+        if largest <= 0:
+            raise _zero_factor(factor.label, graph, given, names)
+        log_scale += math.log(largest)
+        if scope := tuple(index[name] for name in names if name in index):
+            tables.append((scope, values if largest == 1 else values / largest))
+    return tables, log_scale
+
+
+def _zero_factor(label: str, graph: FactorGraph, given: Mapping[str, Hashable], names: list[str]) -> ImpossibleEvidence:
+    bare = Problem(graph, given, (), (), (), (), 0.0, {})
+    return ImpossibleEvidence(f"factor {label} is 0 everywhere under the evidence: {impossible(bare, names)}")

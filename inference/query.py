@@ -1,0 +1,95 @@
+"""The one door to inference: ask a factor graph, choose an engine."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+
+from ..model.errors import CogmapError
+from ..model.factor_graph import FactorGraph
+from . import brute, elimination
+from .evidence import all_evidence
+from .posterior import MostProbable, Posterior, Solution
+from .problem import Problem, reduce
+
+ENGINES = ("numpy", "gtsam", "brute")
+
+
+def infer(
+    graph: FactorGraph,
+    *,
+    evidence: Mapping[str, Hashable] | None = None,
+    pairs: Iterable[Sequence[str]] = (),
+    engine: str = "numpy",
+    order: Sequence[str] | None = None,
+) -> Posterior:
+    """Exact posterior of a factor graph: log evidence, all marginals, the joints asked for.
+
+    Args:
+        graph: the graph; evidence given by `graph.observe` counts too.
+        evidence: a label for each observed variable, by name.
+        pairs: sets of names (two, three, ...) whose joints are wanted at once; others can be asked for later.
+        engine: `"numpy"` (bucket elimination), `"gtsam"`, or `"brute"` (enumeration, small graphs).
+        order: order of elimination, all latent variables by name; by default along time, else minimum fill.
+
+    Raises:
+        ImpossibleEvidence: no assignment has a product above zero.
+        CogmapError: unknown engine, variable or label, a bad `order`, or a cluster too large for the engine.
+    """
+    graph = graph.copy()
+    problem = _problem(graph, evidence, engine)
+    solution = _solve(problem, engine, order)
+    for names in pairs:
+        for name in [names] if isinstance(names, str) else names:
+            graph.variable_named(name)
+    joints = {(v.name,): solution.joint((v.name,)) for v in graph.variables}
+    joints |= {tuple(names): solution.joint(tuple(names)) for names in pairs}
+    return Posterior(graph, problem.given, engine, solution.log_evidence, solution, joints)
+
+
+def most_probable(
+    graph: FactorGraph,
+    *,
+    evidence: Mapping[str, Hashable] | None = None,
+    engine: str = "numpy",
+    order: Sequence[str] | None = None,
+) -> MostProbable:
+    """The most probable assignment (max-product). Arguments and errors as for `infer`; ties are broken by the engine."""
+    graph = graph.copy()
+    problem = _problem(graph, evidence, engine)
+    if engine == "brute":
+        best = brute.most_probable(problem)
+        labels = {variable.name: variable.domain[best[variable.name]] for variable in graph.variables}
+    elif engine == "gtsam":
+        from . import gtsam_engine
+
+        labels = problem.labels(gtsam_engine.maximise(problem, order))
+    else:
+        labels = problem.labels(elimination.maximise(problem, order))
+    return MostProbable(graph, labels, log_product(graph, labels))
+
+
+def log_product(graph: FactorGraph, labels: Mapping[str, Hashable]) -> float:
+    """log Π_f f(x_f) at a full assignment of labels; -inf where a factor is zero."""
+    indices = {variable.name: variable.index(labels[variable.name]) for variable in graph.variables}
+    total = 0.0
+    for factor in graph.factors:
+        value = float(factor.dense()[tuple(indices[v.name] for v in factor.scope)])
+        total += math.log(value) if value > 0 else -math.inf
+    return total
+
+
+def _problem(graph: FactorGraph, evidence: Mapping[str, Hashable] | None, engine: str) -> Problem:
+    if engine not in ENGINES:
+        raise CogmapError(f"inference: no engine {engine!r}; choose one of {', '.join(ENGINES)}")
+    return reduce(graph, all_evidence(graph, evidence))
+
+
+def _solve(problem: Problem, engine: str, order: Sequence[str] | None) -> Solution:
+    if engine == "brute":
+        return brute.solve(problem)
+    if engine == "gtsam":
+        from . import gtsam_engine
+
+        return gtsam_engine.solve(problem, order)
+    return elimination.solve(problem, order)

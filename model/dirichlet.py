@@ -1,0 +1,152 @@
+"""Sparse growing tables of Dirichlet counts."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+EMPTY = -2
+"""Key of an unused slot."""
+
+
+def _grown(array: NDArray[np.generic], shape: tuple[int, int], fill: float) -> NDArray[np.generic]:
+    larger = np.full(shape, fill, dtype=array.dtype)
+    larger[: array.shape[0], : array.shape[1]] = array
+    return larger
+
+
+class SparseDirichlet:
+    """Rows of Dirichlet counts over a growing domain; only outcomes with counts of their own are stored.
+
+    The concentration of an outcome is `background + prior + evidence`. Outcomes without a slot have the
+    background alone, times `outcomes` of them. Evidence never falls below zero, so counts never fall below
+    their prior. Appending rows is amortised: storage doubles.
+
+    Attributes:
+        background: concentration of every outcome of the domain, whether it has a slot or not.
+        outcomes: size of the domain; matters only where `background` is positive.
+        ceiling: evidence of one outcome never exceeds this.
+    """
+
+    __slots__ = ("_evidence", "_keys", "_prior", "_rows", "background", "ceiling", "outcomes")
+
+    def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0, ceiling: float = np.inf) -> None:
+        self.background = background
+        self.outcomes = outcomes
+        self.ceiling = ceiling
+        self._rows = 0
+        self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
+        self._prior: Floats = np.zeros((8, slots))
+        self._evidence: Floats = np.zeros((8, slots))
+
+    def __len__(self) -> int:
+        return self._rows
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of storage in use."""
+        return self._rows * self._keys.shape[1] * 24
+
+    def append(self, rows: int) -> int:
+        """Append empty rows; returns the index of the first."""
+        first = self._rows
+        self._rows += rows
+        capacity, slots = self._keys.shape
+        if self._rows > capacity:
+            self._resize(max(self._rows, 2 * capacity), slots)
+        return first
+
+    def _resize(self, rows: int, slots: int) -> None:
+        self._keys = _grown(self._keys, (rows, slots), EMPTY).astype(np.int64)
+        self._prior = _grown(self._prior, (rows, slots), 0.0).astype(np.float64)
+        self._evidence = _grown(self._evidence, (rows, slots), 0.0).astype(np.float64)
+
+    def _slot(self, row: int, key: int) -> int:
+        """Slot of `key` in `row`; taken anew where it has none."""
+        keys = self._keys[row].tolist()
+        if key in keys:
+            return keys.index(key)
+        if EMPTY not in keys:
+            self._resize(self._keys.shape[0], 2 * self._keys.shape[1])
+            return self._slot(row, key)
+        slot = keys.index(EMPTY)
+        self._keys[row, slot] = key
+        return slot
+
+    def expect(self, row: int, key: int, prior: float) -> None:
+        """Give outcome `key` of `row` a prior of its own."""
+        self._prior[row, self._slot(row, key)] = prior
+
+    def rename(self, row: int, old: int, new: int) -> None:
+        """Let the slot of outcome `old` stand for `new`, with the counts it has."""
+        self._keys[row, self._slot(row, old)] = new
+
+    def add(self, row: int, key: int, amount: float) -> float:
+        """Add evidence (negative takes away) for `key` in `row`; returns what was really added."""
+        if amount <= 0.0 and self.evidence(row, key) == 0.0:
+            return 0.0
+        slot = self._slot(row, key)
+        before = float(self._evidence[row, slot])
+        after = min(max(before + amount, 0.0), self.ceiling)
+        self._evidence[row, slot] = after
+        return after - before
+
+    def evidence(self, row: int, key: int) -> float:
+        """Evidence for `key` in `row`, prior left out."""
+        keys = self._keys[row].tolist()
+        return float(self._evidence[row, keys.index(key)]) if key in keys else 0.0
+
+    def fade(self, rows: Ints | slice, keep: float) -> None:
+        """Multiply the evidence of `rows` by `keep`, in [0, 1]: what was learned long ago fades."""
+        self._evidence[rows] *= keep
+
+    def concentration(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
+        """Counts of `rows`.
+
+        Returns:
+            keys `[n, slots]` (`EMPTY` where unused), concentrations `[n, slots]` (zero where unused), and
+            the number of outcomes without a slot, `[n]`, each of concentration `background`.
+        """
+        keys = self._keys[rows]
+        used = keys != EMPTY
+        alpha = self._prior[rows] + self._evidence[rows] + self.background * used
+        return keys, alpha, np.maximum(self.outcomes - used.sum(axis=1), 0).astype(np.float64)
+
+    def mean(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
+        """Expected probabilities of `rows`: keys and P `[n, slots]`, and P `[n]` of one outcome without a slot."""
+        keys, alpha, others = self.concentration(rows)
+        total = alpha.sum(axis=1) + self.background * others
+        return keys, alpha / total[:, None], self.background / total
+
+    def probability(self, key: int | Ints, rows: Ints) -> Floats:
+        """Expected probability `[n]` of outcome `key` (one, or one a row) in `rows`."""
+        keys, p, other = self.mean(rows)
+        match = keys == np.reshape(key, (-1, 1))
+        return np.where(match.any(axis=1), (p * match).sum(axis=1), other)
+
+    def dense(self, outcomes: int) -> Floats:
+        """Expected probabilities `[outcomes + 1, rows]`; the last line is everything not among the first ones."""
+        table = np.zeros((outcomes + 1, self._rows))
+        keys, p, other = self.mean(np.arange(self._rows))
+        table[:-1] = other
+        for row, (row_keys, row_p) in enumerate(zip(keys.tolist(), p.tolist(), strict=True)):
+            for key, value in zip(row_keys, row_p, strict=True):
+                if 0 <= key < outcomes:
+                    table[key, row] = value
+        table[-1] = np.maximum(1.0 - table[:-1].sum(axis=0), 0.0)
+        return table
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Arrays that hold every count, for saving."""
+        rows = slice(self._rows)
+        return {"keys": self._keys[rows], "prior": self._prior[rows], "evidence": self._evidence[rows]}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
+        """Take over what `state` returned."""
+        self._keys = state["keys"].astype(np.int64)
+        self._prior = state["prior"].astype(np.float64)
+        self._evidence = state["evidence"].astype(np.float64)
+        self._rows = self._keys.shape[0]

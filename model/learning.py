@@ -1,0 +1,148 @@
+"""Dirichlet updates of A_o, A_p and B_s, weighted by posteriors (appendix, table of transition learning rates)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .cognitive_map import BLOCKED, OPEN, UNKNOWN, CognitiveMap
+
+
+@dataclass(frozen=True, slots=True)
+class Rates:
+    """Counts that one piece of evidence adds; each pair is (forward, reverse).
+
+    Attributes:
+        possible: a transition that was walked.
+        impossible: a way that was found blocked; negative, taken from the transition, and added to staying.
+        imagined: a transition behind a door that was sensed open.
+        likelihood: a sight or position met in a place.
+    """
+
+    possible: tuple[float, float] = (7.0, 5.0)
+    impossible: tuple[float, float] = (-7.0, -5.0)
+    imagined: tuple[float, float] = (5.0, 3.0)
+    likelihood: float = 1.0
+
+
+TABLE_RATES = Rates()
+"""The paper's table."""
+
+TEXT_RATES = Rates(possible=(10.0, 7.0), impossible=(-10.0, -7.0))
+"""The paper's running text, which differs from its table."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """One change of a count.
+
+    Attributes:
+        table: `A_o`, `A_p` or `B_s`.
+        outcome: sight, position or next place, by number.
+        place: the place in whose column the count changed.
+        action: the action, for `B_s`.
+        amount: what was added to the count.
+    """
+
+    table: str
+    outcome: int
+    place: int
+    action: int | None
+    amount: float
+
+
+class Learner:
+    """Teaches a map; `lessons` lists what changed since it was last taken."""
+
+    __slots__ = ("_lessons", "map", "rates")
+
+    def __init__(self, map_: CognitiveMap, rates: Rates) -> None:
+        self.map = map_
+        self.rates = rates
+        self._lessons: list[Lesson] = []
+
+    def take_lessons(self) -> tuple[Lesson, ...]:
+        """What changed since the last call."""
+        taken = tuple(self._lessons)
+        self._lessons.clear()
+        return taken
+
+    def sight(self, place: int, sight: int, weight: float) -> None:
+        """`A_o[sight, place]` gains `weight` times the rate."""
+        added = self.map.A_o.add(place, sight, weight * self.rates.likelihood)
+        self._note("A_o", sight, place, None, added)
+
+    def position(self, place: int, position: int, weight: float) -> None:
+        """`A_p[position, place]` gains `weight` times the rate."""
+        added = self.map.A_p.add(place, position, weight * self.rates.likelihood)
+        self._note("A_p", position, place, None, added)
+
+    def transition(self, previous: int, action: int, next_: int, weight: float) -> None:
+        """A walked transition, weighted by its pairwise posterior; one that went nowhere was blocked (eq. B_up)."""
+        if action == self.map.motions.stay:
+            return
+        if previous == next_:
+            self._block(previous, action, weight)
+            return
+        forward, reverse = self.rates.possible
+        self._add(next_, previous, action, weight * forward)
+        self._add(previous, next_, self.map.motions.inverse[action], weight * reverse)
+        if weight > 0.5:
+            self.map.walked[previous, action] = True
+
+    def doors(self, place: int, open_: Sequence[bool], weight: float) -> None:
+        """What is sensed of the doors of `place`; each change of a door is evidence once."""
+        for action in range(len(self.map.motions)):
+            if action == self.map.motions.stay:
+                continue
+            before = int(self.map.sensed[place, action])
+            if open_[action] and before != OPEN:
+                self._open(place, action, weight, was_blocked=before == BLOCKED)
+            elif not open_[action] and before != BLOCKED:
+                self._block(place, action, weight)
+                self.map.sensed[place, action] = BLOCKED
+
+    def recall(self, place: int) -> None:
+        """Teach a new place what its neighbours' doors have shown of it already: those that are blocked."""
+        for action, inverse in enumerate(self.map.motions.inverse):
+            neighbour = self.map.beyond(place, action)
+            if neighbour is not None and self.map.sensed[neighbour, inverse] == BLOCKED:
+                self._add(place, place, action, -self.rates.impossible[1])
+
+    def forget(self, keep: float) -> None:
+        """Let all evidence for transitions fade by the factor `keep`."""
+        self.map.B_s.fade(slice(len(self.map.B_s)), keep)
+
+    def _open(self, place: int, action: int, weight: float, *, was_blocked: bool) -> None:
+        beyond = self.map.beyond(place, action)
+        if beyond is None:  # nothing to imagine there (yet): the door is forgotten, as in observed growth
+            self.map.sensed[place, action] = UNKNOWN
+            return
+        inverse = self.map.motions.inverse[action]
+        if was_blocked:
+            forward, reverse = self.rates.impossible
+            self._add(place, place, action, weight * forward)
+            self._add(beyond, beyond, inverse, weight * reverse)
+        forward, reverse = self.rates.imagined
+        self._add(beyond, place, action, weight * forward)
+        self._add(place, beyond, inverse, weight * reverse)
+        self.map.sensed[place, action] = OPEN
+
+    def _block(self, place: int, action: int, weight: float) -> None:
+        forward, reverse = self.rates.impossible
+        self._add(place, place, action, -weight * forward)
+        beyond = self.map.beyond(place, action)
+        if beyond is None:
+            return
+        inverse = self.map.motions.inverse[action]
+        self._add(beyond, place, action, weight * forward)
+        self._add(beyond, beyond, inverse, -weight * reverse)
+        self._add(place, beyond, inverse, weight * reverse)
+
+    def _add(self, next_: int, previous: int, action: int, amount: float) -> None:
+        added = self.map.B_s.add(self.map.row(previous, action), next_, amount)
+        self._note("B_s", next_, previous, action, added)
+
+    def _note(self, table: str, outcome: int, place: int, action: int | None, amount: float) -> None:
+        if amount != 0.0:
+            self._lessons.append(Lesson(table, outcome, place, action, amount))

@@ -1,0 +1,28 @@
+"""What to do: policies, rollouts, expected free energy, choice."""
+
+from .choice import CHOICES, Plan, choose, plan, policy_posterior
+from .information import dirichlet_information, expected_gain
+from .policies import GENERATORS, Policies, exhaustive, l_shaped, map_guided, self_avoiding
+from .reach import Reach
+from .reference import evaluate_plain
+from .rollout import ExpectedFreeEnergy, evaluate
+
+__all__ = [
+    "CHOICES",
+    "GENERATORS",
+    "ExpectedFreeEnergy",
+    "Plan",
+    "Policies",
+    "Reach",
+    "choose",
+    "dirichlet_information",
+    "evaluate",
+    "evaluate_plain",
+    "exhaustive",
+    "expected_gain",
+    "l_shaped",
+    "map_guided",
+    "plan",
+    "policy_posterior",
+    "self_avoiding",
+]

@@ -1,0 +1,151 @@
+"""Which policy to follow: the posterior over policies, the choice, and the record of both."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..model.errors import CogmapError
+from .policies import DEFAULT_BEAM, GENERATORS, Policies, map_guided
+from .reach import Reach
+from .rollout import ExpectedFreeEnergy, evaluate
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+CHOICES = ("best", "sampled")
+TIE = 1e-9  # nats; policies closer than this are equally good
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What was considered, what each policy was worth, and what was chosen.
+
+    Attributes:
+        reach: the tables that the plan was made with.
+        policies: `[P, L]` action indices.
+        expected_free_energy: G term by term, each `[P]`, in nats.
+        probability: `[P]` P(policy) (eq. 6).
+        chosen: index of the chosen policy.
+        action: its first action, the one to take now.
+        cut: prefixes that the bound on the search left out.
+    """
+
+    reach: Reach
+    policies: Ints
+    expected_free_energy: ExpectedFreeEnergy
+    probability: Floats
+    chosen: int
+    action: int
+    cut: int
+
+    @property
+    def policy(self) -> Ints:
+        """`[L]` the chosen action sequence."""
+        return self.policies[self.chosen]
+
+    @property
+    def names(self) -> list[str]:
+        """The chosen action sequence by name."""
+        return [self.reach.motions.names[action] for action in self.policy.tolist()]
+
+    @property
+    def places(self) -> Ints:
+        """`[R]` the places of the map that the plan could see."""
+        return self.reach.places
+
+    @property
+    def action_probability(self) -> Floats:
+        """`[K]` P(first action), the sum over the policies that begin with it."""
+        first = self.policies[:, 0, None] == np.arange(len(self.reach.motions))
+        return self.probability @ first
+
+
+def policy_posterior(G: ArrayLike, *, precision: float = 16.0) -> Floats:
+    """P(policy) = softmax(-precision G), once (eq. 6).
+
+    Args:
+        G: `[P]` expected free energies, nats.
+        precision: gamma; 0 makes all policies alike.
+
+    Returns:
+        `[P]`, sums to one.
+
+    Raises:
+        CogmapError: `G` is empty or not finite, `precision` is negative or not finite.
+    """
+    cost = np.asarray(G, dtype=np.float64)
+    if cost.ndim != 1 or not len(cost) or not np.isfinite(cost).all():
+        raise CogmapError("policy_posterior: G must be a non-empty vector of finite numbers; check the tables")
+    if not (np.isfinite(precision) and precision >= 0.0):
+        raise CogmapError(f"policy_posterior: precision is {precision}; give a finite number, 0 or more")
+    weight = np.exp(-precision * (cost - cost.min()))
+    return weight / weight.sum()
+
+
+def choose(
+    reach: Reach,
+    policies: Policies,
+    terms: ExpectedFreeEnergy,
+    *,
+    precision: float = 16.0,
+    how: str = "best",
+    rng: np.random.Generator,
+) -> Plan:
+    """The plan: "best" takes the least G (equals drawn evenly), "sampled" draws from P(policy).
+
+    Raises:
+        CogmapError: unknown `how`, terms of other policies, or what `policy_posterior` raises.
+    """
+    if how not in CHOICES:
+        raise CogmapError(f"choose: no way to choose is called {how!r}; take one of {', '.join(CHOICES)}")
+    if len(terms) != len(policies):
+        raise CogmapError(f"choose: {len(terms)} values of G for {len(policies)} policies; evaluate these")
+    G = terms.G
+    probability = policy_posterior(G, precision=precision)
+    if how == "best":
+        chosen = int(rng.choice(np.flatnonzero(G - G.min() <= TIE)))
+    else:
+        chosen = int(rng.choice(len(G), p=probability))
+    action = int(policies.actions[chosen, 0])
+    return Plan(reach, policies.actions, terms, probability, chosen, action, policies.cut)
+
+
+def plan(
+    reach: Reach,
+    *,
+    generator: str | Callable[[Reach], Policies] = "map_guided",
+    precision: float = 16.0,
+    choice: str = "best",
+    rng: np.random.Generator,
+    beam: int = DEFAULT_BEAM,
+) -> Plan:
+    """Generate policies, evaluate them, choose one.
+
+    Args:
+        reach: the tables within reach.
+        generator: a name in `GENERATORS`, or any function from Reach to Policies.
+        precision: gamma of eq. 6.
+        choice: "best" or "sampled", see `choose`.
+        rng: breaks ties, and draws when sampling.
+        beam: bound on the search of "map_guided".
+
+    Raises:
+        CogmapError: a table that does not fit (see `Reach.check`), an unknown name, or a bad option.
+    """
+    reach.check()
+    policies = _generator(generator, beam)(reach)
+    return choose(reach, policies, evaluate(reach, policies), precision=precision, how=choice, rng=rng)
+
+
+def _generator(generator: str | Callable[[Reach], Policies], beam: int) -> Callable[[Reach], Policies]:
+    if not isinstance(generator, str):
+        return generator
+    if generator == "map_guided":
+        return partial(map_guided, beam=beam)
+    if generator not in GENERATORS:
+        raise CogmapError(f"plan: no policy generator is called {generator!r}; take one of {', '.join(GENERATORS)}")
+    return GENERATORS[generator]

@@ -1,0 +1,190 @@
+"""Cuts out of the map what a plan can see: the places within reach of the belief, and their tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.cognitive_map import ELSEWHERE, CognitiveMap
+from ..model.dirichlet import EMPTY
+from .information import dirichlet_information
+from .reach import Floats, Ints, Reach
+
+PROMISING = 0.1
+"""Nats that a first visit must be worth for a place to be a goal of long ways."""
+
+
+@dataclass(frozen=True, slots=True)
+class Preferences:
+    """What the agent hopes for.
+
+    Attributes:
+        sights: log preference of sights by number, relative to all others, in nats; `-1` stands for a sight
+            never met.
+        collision_cost: -log P(c = 1): what a collision costs, in nats.
+    """
+
+    sights: Mapping[int, float]
+    collision_cost: float
+
+    def log_C(self, outcomes: int) -> tuple[Ints, Floats, float]:
+        """Preferred outcomes, their log C, and that of each of the others, of `outcomes` in all."""
+        keys = np.array(sorted(self.sights), dtype=np.int64)
+        values = np.array([self.sights[int(key)] for key in keys])
+        if not len(keys):
+            return keys, values, 0.0
+        norm = float(np.logaddexp.reduce(np.append(values, np.log(max(outcomes - len(keys), 1e-300)))))
+        return keys, values - norm, -norm
+
+
+def cut_reach(map_: CognitiveMap, places: Ints, belief: Floats, *, look_ahead: int, preferences: Preferences) -> Reach:
+    """The generative model over what policies can lead to from `belief` over `places`.
+
+    Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
+    nearest places that are.
+    """
+    within, steps = _ball(map_, places, look_ahead, preferences)
+    local = np.append(within, ELSEWHERE)
+    q = np.zeros(len(local))
+    q[np.searchsorted(within, places)] = belief
+    A, multiplicity, log_C = _sights(map_, within, preferences)
+    keys, alpha = _transitions(map_, within)
+    B = _local_B(within, keys, alpha)
+    sights = _sight_information(map_, within, steps)
+    here = np.arange(len(within))
+    collision = np.zeros((len(local), len(map_.motions)))
+    collision[:-1] = B[here, here, :]
+    collision[:, map_.motions.stay] = 0.0
+    transition_information = np.zeros((len(local), len(map_.motions), steps + 1))
+    transition_information[:-1] = _information(alpha, steps)
+    position_information = np.zeros((len(local), steps + 1))
+    position_information[:-1] = _information(map_.A_p.concentration(within)[1], steps)
+    return Reach(
+        motions=map_.motions,
+        look_ahead=look_ahead,
+        places=local,
+        belief=q,
+        A=A,
+        multiplicity=multiplicity,
+        log_C=log_C,
+        B=B,
+        collision=collision,
+        collision_cost=preferences.collision_cost,
+        sight_information=sights,
+        position_information=position_information,
+        transition_information=transition_information,
+        successor=_successor(B, map_.motions.stay),
+        promise=sights[:, 1] + np.maximum(log_C @ A - (log_C @ multiplicity) / multiplicity.sum(), 0.0),
+    )
+
+
+def _ball(map_: CognitiveMap, places: Ints, look_ahead: int, preferences: Preferences) -> tuple[Ints, int]:
+    """Places within reach, ascending, and the number of steps to the furthest that a policy may go to."""
+    actions = np.arange(len(map_.motions))
+    known = np.zeros(len(map_.places), dtype=np.bool_)
+    known[places] = True
+    frontier = np.flatnonzero(known)
+    found = bool(_promising(map_, frontier, preferences).any())
+    steps = 0
+    while len(frontier) and (steps < look_ahead or not found):
+        keys = map_.B_s.concentration((frontier[:, None] * len(actions) + actions).ravel())[0]
+        reached = np.unique(keys[keys >= 0])
+        frontier = reached[~known[reached]]
+        known[frontier] = True
+        steps += 1
+        found = found or bool(_promising(map_, frontier, preferences).any())
+    return np.flatnonzero(known), max(steps, look_ahead)
+
+
+def _promising(map_: CognitiveMap, places: Ints, preferences: Preferences) -> NDArray[np.bool_]:
+    hoped = [key for key, value in preferences.sights.items() if value > 0.0 and key >= 0]
+    promising = ~map_.visited[places]
+    for key in hoped:
+        promising |= map_.A_o.probability(key, places) > PROMISING
+    return promising
+
+
+def _sights(map_: CognitiveMap, places: Ints, preferences: Preferences) -> tuple[Floats, Floats, Floats]:
+    """A over the outcomes that places in reach (or preferences) tell apart, and one row for all the rest."""
+    keys, p, other = map_.A_o.mean(places)
+    preferred, log_preferred, log_other = preferences.log_C(map_.A_o.outcomes)
+    outcomes = np.union1d(keys[keys >= 0], preferred)
+    rest = map_.A_o.outcomes - len(outcomes)
+    A = np.empty((len(outcomes) + 1, len(places) + 1))
+    A[:-1, :-1] = other
+    row, slot = np.nonzero(keys >= 0)
+    A[np.searchsorted(outcomes, keys[row, slot]), row] = p[row, slot]
+    A[-1, :-1] = other * rest
+    A[:-1, -1] = 1.0 / map_.A_o.outcomes
+    A[-1, -1] = rest / map_.A_o.outcomes
+    log_C = np.full(len(outcomes) + 1, log_other)
+    log_C[np.searchsorted(outcomes, preferred)] = log_preferred
+    multiplicity = np.append(np.ones(len(outcomes)), float(rest))
+    return (A, multiplicity, log_C) if rest else (A[:-1], multiplicity[:-1], log_C[:-1])
+
+
+def _transitions(map_: CognitiveMap, places: Ints) -> tuple[Ints, Floats]:
+    """Successors and concentrations, `[R, K, slots]`, of every action in every place."""
+    size = len(map_.motions)
+    keys, alpha, _ = map_.B_s.concentration((places[:, None] * size + np.arange(size)).ravel())
+    return keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
+
+
+def _local_B(places: Ints, keys: Ints, alpha: Floats) -> Floats:
+    """B `[R, R, K]` over `places` and, last, everywhere else, which nothing leaves."""
+    size, actions, _ = keys.shape
+    p = alpha / alpha.sum(axis=2, keepdims=True)
+    at = np.searchsorted(places, keys)
+    at[at == size] = 0
+    inside = (places[at] == keys) & (keys >= 0)
+    index = np.where(inside, at, size)
+    index[keys == EMPTY] = size
+    B = np.zeros((size + 1, size + 1, actions))
+    place, action, _ = np.indices(keys.shape)
+    np.add.at(B, (index, place, action), p)
+    B[size, size, :] = 1.0
+    return B
+
+
+def _successor(B: Floats, stay: int) -> Ints:
+    """The most probable place besides the place itself, where it is at least as probable as staying."""
+    size = len(B) - 1
+    others = B[:size].copy()
+    here = np.arange(size)
+    others[here, here, :] = 0.0
+    best = others.argmax(axis=0)
+    p = others.max(axis=0)
+    blocked = np.zeros_like(p)
+    blocked[:size] = B[here, here, :]
+    elsewhere = B[size]
+    successor = np.where((p > 0.0) & (p >= blocked) & (p >= elsewhere), best, -1)
+    successor[:size, stay] = here
+    successor[size] = -1
+    return successor.astype(np.int64)
+
+
+def _sight_information(map_: CognitiveMap, places: Ints, steps: int) -> Floats:
+    """`[R + 1, steps + 1]` for A_o; the last row, for elsewhere, is that of a place never seen."""
+    keys, alpha, others = map_.A_o.concentration(places)
+    background = map_.A_o.background
+    alpha = np.column_stack([alpha, np.full(len(places), background)])
+    many = np.column_stack([np.ones_like(keys, dtype=np.float64), others])
+    fresh = np.zeros((1, alpha.shape[1]))
+    fresh[0, -1] = background
+    fresh_many = np.ones_like(fresh)
+    fresh_many[0, -1] = map_.A_o.outcomes
+    return _information(np.vstack([alpha, fresh]), steps, np.vstack([many, fresh_many]))
+
+
+def _information(alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:
+    """`dirichlet_information` of `[..., O]` concentrations; rows that are alike are computed once."""
+    rows = alpha.reshape(-1, alpha.shape[-1])
+    many = np.ones_like(rows) if multiplicity is None else multiplicity.reshape(rows.shape)
+    seen: dict[bytes, int] = {}
+    inverse = [seen.setdefault(a.tobytes() + m.tobytes(), len(seen)) for a, m in zip(rows, many, strict=True)]
+    first = [inverse.index(i) for i in range(len(seen))]
+    table = dirichlet_information(rows[first], steps, multiplicity=many[first])
+    return table[inverse].reshape(*alpha.shape[:-1], steps + 1)

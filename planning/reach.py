@@ -1,0 +1,104 @@
+"""What a plan can see: the tables of the map, cut to the places within reach."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.errors import CogmapError
+from ..model.motions import Motions
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """The generative model over the `R` places that a policy can lead to.
+
+    Local place `i` stands for place `places[i]` of the map; `-1` is "somewhere never imagined".
+    Outcomes that no place in reach tells apart are lumped: row `o` of `A` stands for
+    `multiplicity[o]` sights that are alike, and holds their mass together.
+
+    Attributes:
+        motions: the `K` actions.
+        look_ahead: steps that the policy generators may use.
+        places: `[R]` places of the map.
+        belief: `[R]` Q(s) now.
+        A: `[O, R]` P(o | s); columns sum to one.
+        multiplicity: `[O]` sights that each row stands for.
+        log_C: `[O]` log preference of each of the sights in the row, in nats (its weight included).
+        B: `[R, R, K]` P(s' | s, a); `B[:, s, a]` sums to one.
+        collision: `[R, K]` P(blocked | s, a); zero for `stay`.
+        collision_cost: -log P(c = 1) of the preferred outcomes, in nats.
+        sight_information: `[R, N + 1]` what `n` sights of a place teach about its column of A_o, in
+            nats; column 0 is zero; `N` is at least the length of the longest policy.
+        position_information: `[R, N + 1]` the same for A_p.
+        transition_information: `[R, K, N + 1]` what `n` attempts of `(s, a)` teach about `B[:, s, a]`.
+        successor: `[R, K]` the place each action most probably leads to on the map; `-1` where the
+            map says blocked or knows nothing beyond.
+        promise: `[R]` what a first visit is worth, in nats (for generators that look for goals).
+    """
+
+    motions: Motions
+    look_ahead: int
+    places: Ints
+    belief: Floats
+    A: Floats
+    multiplicity: Floats
+    log_C: Floats
+    B: Floats
+    collision: Floats
+    collision_cost: float
+    sight_information: Floats
+    position_information: Floats
+    transition_information: Floats
+    successor: Ints
+    promise: Floats
+
+    def check(self) -> None:
+        """Raise `CogmapError` naming the first table that is of the wrong shape or no probability."""
+        if self.look_ahead < 1:
+            raise CogmapError(f"reach: look_ahead is {self.look_ahead}; give 1 or more steps")
+        self._check_shapes()
+        for name in ("sight_information", "position_information", "transition_information"):
+            if getattr(self, name).shape[-1] <= self.look_ahead:
+                raise CogmapError(f"reach: {name} ends before look_ahead; give {self.look_ahead + 1} columns or more")
+        for name in ("belief", "A", "B"):
+            table: Floats = getattr(self, name)
+            # a NaN fails every comparison, so these also refuse what is not finite
+            if not (table.min() >= 0.0 and abs(table.sum(0) - 1.0).max() <= 1e-6):
+                raise CogmapError(f"reach: {name} is no probability; its columns must sum to one")
+        if not (self.collision.min() >= 0.0 and self.collision.max() <= 1.0):
+            raise CogmapError("reach: collision is no probability; give numbers from 0 to 1")
+        if not (np.isfinite(self.log_C).all() and np.isfinite(self.collision_cost)):
+            raise CogmapError("reach: log_C and collision_cost must be finite; an outcome never wanted needs a floor")
+        if not self.multiplicity.min() >= 1.0:
+            raise CogmapError("reach: multiplicity is below one; each row of A stands for one sight or more")
+        if self.successor.min() < -1 or self.successor.max() >= len(self.belief):
+            raise CogmapError("reach: successor must be -1 or a place in reach, counted from 0")
+
+    def _check_shapes(self) -> None:
+        R, K, O = len(self.belief), len(self.motions), len(self.multiplicity)  # noqa: E741
+        shapes = {
+            "places": (R,),
+            "belief": (R,),
+            "A": (O, R),
+            "multiplicity": (O,),
+            "log_C": (O,),
+            "B": (R, R, K),
+            "collision": (R, K),
+            "successor": (R, K),
+            "promise": (R,),
+            "sight_information": (R, self.sight_information.shape[-1]),
+            "position_information": (R, self.position_information.shape[-1]),
+            "transition_information": (R, K, self.transition_information.shape[-1]),
+        }
+        for name, shape in shapes.items():
+            found = getattr(self, name).shape
+            if found != shape or 0 in shape:
+                raise CogmapError(
+                    f"reach: {name} has shape {found}; {R} places, {K} actions, {O} outcomes ask for {shape}"
+                )

@@ -1,0 +1,82 @@
+"""Expected free energy once more, without sharing and without arrays, to be read against the equations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import floor, log
+
+import numpy as np
+
+from .policies.base import Policies
+from .reach import Reach
+from .rollout import ExpectedFreeEnergy
+
+TERMS = 6
+
+
+def evaluate_plain(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
+    """What `rollout.evaluate` computes (its docstring is the definition), policy by policy.
+
+    Slow: meant for tests and for reading.
+    """
+    rows = [_terms(reach, policy) for policy in policies.actions.tolist()]
+    columns = np.array(rows, dtype=np.float64).reshape(-1, TERMS).T
+    return ExpectedFreeEnergy(*columns)
+
+
+def _terms(reach: Reach, policy: Sequence[int]) -> list[float]:
+    """State, sight, position and transition information, utility, collision of one policy (eqs. 4, 5, 8)."""
+    places = range(len(reach.belief))
+    total = [0.0] * TERMS
+    belief: list[float] = reach.belief.tolist()
+    visits = [0.0 for _ in places]
+    attempts = [[0.0 for _ in range(len(reach.motions))] for _ in places]
+    for action in policy:
+        before, belief = belief, predicted_places(reach, belief, action)
+        total[0] += state_information(reach, belief)
+        for s in places:
+            total[1] += gain(reach.sight_information[s].tolist(), visits[s], belief[s])
+            total[2] += gain(reach.position_information[s].tolist(), visits[s], belief[s])
+            total[3] += gain(reach.transition_information[s, action].tolist(), attempts[s][action], before[s])
+            visits[s] += belief[s]
+            attempts[s][action] += before[s]
+        total[4] += sum(mass * float(reach.log_C[o]) for o, mass in enumerate(predicted_sights(reach, belief)))
+        total[5] += reach.collision_cost * sum(before[s] * float(reach.collision[s, action]) for s in places)
+    return total
+
+
+def predicted_places(reach: Reach, Q: Sequence[float], action: int) -> list[float]:
+    """Q_t(s') = sum_s B[s', s, a] Q_{t-1}(s)."""
+    places = range(len(Q))
+    return [sum(float(reach.B[after, s, action]) * Q[s] for s in places) for after in places]
+
+
+def predicted_sights(reach: Reach, Q: Sequence[float]) -> list[float]:
+    """P_t(o) = sum_s A[o, s] Q_t(s), lumped rows together."""
+    return [sum(float(row[s]) * Q[s] for s in range(len(Q))) for row in reach.A]
+
+
+def state_information(reach: Reach, Q: Sequence[float]) -> float:
+    """H[o] - sum_s Q(s) H[o | s], the mutual information of sight and place (eq. 5)."""
+    ambiguity = sum(Q[s] * entropy(reach, reach.A[:, s].tolist()) for s in range(len(Q)))
+    return entropy(reach, predicted_sights(reach, Q)) - ambiguity
+
+
+def entropy(reach: Reach, sights: Sequence[float]) -> float:
+    """-sum m ln(m / k) over rows of mass m that stand for k sights each."""
+    counts = reach.multiplicity.tolist()
+    return -sum(mass * log(mass / k) for mass, k in zip(sights, counts, strict=True) if mass > 0.0)
+
+
+def gain(table: Sequence[float], before: float, more: float) -> float:
+    """I(before + more) - I(before)."""
+    return read(table, before + more) - read(table, before)
+
+
+def read(table: Sequence[float], visits: float) -> float:
+    """I(visits), linear between integers, constant beyond the table."""
+    last = len(table) - 1
+    if visits >= last:
+        return table[last]
+    low = floor(visits)
+    return table[low] + (visits - low) * (table[low + 1] - table[low])

@@ -1,0 +1,141 @@
+"""Posterior over policies, the choice, and the whole plan."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cogmap.model.errors import CogmapError
+from cogmap.planning import ExpectedFreeEnergy, Plan, Policies, choose, evaluate, map_guided, plan, policy_posterior
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reaches import grid_reach, random_reach
+
+HALL = [(0, j) for j in range(5)]
+
+
+def with_G(G: list[float]) -> tuple[Policies, ExpectedFreeEnergy]:
+    """One policy a value, its first action its index modulo 5."""
+    zero = np.zeros(len(G))
+    policies = Policies(np.stack([np.arange(len(G)) % 5, np.arange(len(G))], axis=1) % 5)
+    return policies, ExpectedFreeEnergy(zero, zero, zero, zero, zero, np.array(G))
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.floats(-1e4, 1e4), min_size=1, max_size=9), st.floats(0.0, 50.0))
+def test_posterior_is_softmax_once(G: list[float], precision: float) -> None:
+    posterior = policy_posterior(G, precision=precision)
+    assert posterior.sum() == pytest.approx(1.0)
+    best = int(np.argmin(G))
+    odds = np.exp(-precision * (np.array(G) - G[best]))
+    np.testing.assert_allclose(posterior, odds * posterior[best], atol=1e-12)
+
+
+def test_posterior_default_precision_is_sixteen() -> None:
+    posterior = policy_posterior([0.0, 0.1])
+    assert posterior[0] / posterior[1] == pytest.approx(np.exp(1.6))
+
+
+@pytest.mark.parametrize(
+    ("G", "precision", "message"),
+    [([], 1.0, "non-empty"), ([np.nan], 1.0, "finite"), ([1.0], -1.0, "precision"), ([1.0], np.inf, "precision")],
+)
+def test_posterior_bad_input(G: list[float], precision: float, message: str) -> None:
+    with pytest.raises(CogmapError, match=message):
+        policy_posterior(G, precision=precision)
+
+
+def test_best_breaks_ties_evenly() -> None:
+    policies, terms = with_G([1.0, 0.0, 2.0, 1e-10, 1e-8])
+    rng = np.random.default_rng(0)
+    reach = random_reach(0)
+    chosen = [choose(reach, policies, terms, rng=rng).chosen for _ in range(400)]
+    assert set(chosen) == {1, 3}
+    assert 150 < chosen.count(1) < 250
+
+
+def test_sampled_draws_from_the_posterior() -> None:
+    policies, terms = with_G([0.0, 0.05, 3.0])
+    rng = np.random.default_rng(0)
+    reach = random_reach(0)
+    draws = [choose(reach, policies, terms, how="sampled", rng=rng).chosen for _ in range(600)]
+    expected = policy_posterior(terms.G)
+    assert np.abs(np.bincount(draws, minlength=3) / 600 - expected).max() < 0.06
+
+
+@pytest.mark.parametrize("how", ["best", "sampled"])
+def test_choice_repeats_with_its_seed(how: str) -> None:
+    policies, terms = with_G([0.0] * 30)
+    reach = random_reach(0)
+
+    def draws(seed: int) -> list[int]:
+        rng = np.random.default_rng(seed)
+        return [choose(reach, policies, terms, how=how, rng=rng).chosen for _ in range(6)]
+
+    assert draws(1) == draws(1)
+    assert draws(1) != draws(2)
+
+
+def test_plan_goes_where_something_is_to_be_learned() -> None:
+    reach = grid_reach(HALL, visited=HALL[:4], at=(0, 2))
+    made = plan(reach, rng=np.random.default_rng(0))
+    assert isinstance(made, Plan)
+    assert made.names[:2] == ["right", "right"]
+    assert made.action == made.policy[0] == 3
+    assert made.action_probability.shape == (5,)
+    assert made.action_probability.sum() == pytest.approx(1.0)
+    assert made.action_probability.argmax() == 3
+    np.testing.assert_array_equal(made.places, reach.places)
+    np.testing.assert_allclose(made.expected_free_energy.G, evaluate(reach, map_guided(reach)).G)
+
+
+def test_plan_goes_to_its_goal_and_stays() -> None:
+    reach = grid_reach(HALL, visited=HALL, at=(0, 3), goal=(0, 1), look_ahead=4)
+    for generator in ("map_guided", "self_avoiding", "l_shaped", "exhaustive"):
+        made = plan(reach, generator=generator, rng=np.random.default_rng(0))
+        assert made.names == ["left", "left", "stay", "stay"]
+
+
+def test_plan_takes_any_generator() -> None:
+    only = Policies(np.array([[2, 2]]), cut=7)
+    made = plan(grid_reach(HALL, visited=HALL, at=(0, 3)), generator=lambda reach: only, rng=np.random.default_rng(0))
+    assert (made.action, made.cut, made.probability.tolist()) == (2, 7, [1.0])
+
+
+def test_unknown_names_list_the_choices() -> None:
+    rng = np.random.default_rng(0)
+    with pytest.raises(CogmapError, match="map_guided, self_avoiding, l_shaped, exhaustive"):
+        plan(random_reach(0), generator="zigzag", rng=rng)
+    with pytest.raises(CogmapError, match="best, sampled"):
+        plan(random_reach(0), choice="worst", rng=rng)
+    policies, terms = with_G([0.0, 1.0])
+    with pytest.raises(CogmapError, match="2 values of G for 1 policies"):
+        choose(random_reach(0), Policies(policies.actions[:1]), terms, rng=rng)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("look_ahead", 0),
+        ("belief", np.full(5, 0.5)),
+        ("belief", np.array([np.nan, 1.0, 0.0, 0.0, 0.0])),
+        ("A", np.eye(4)),
+        ("A", -np.ones((4, 5))),
+        ("B", np.zeros((5, 5, 5))),
+        ("B", np.full((5, 5, 4), 0.2)),
+        ("collision", np.full((5, 5), 1.5)),
+        ("collision_cost", np.inf),
+        ("log_C", np.array([0.0, -np.inf, 0.0, 0.0])),
+        ("multiplicity", np.zeros(4)),
+        ("successor", np.full((5, 5), 5)),
+        ("successor", np.full((5, 4), 0)),
+        ("promise", np.zeros(4)),
+        ("sight_information", np.zeros((5, 3))),
+        ("position_information", np.zeros((4, 9))),
+        ("transition_information", np.zeros((5, 5, 2))),
+    ],
+)
+def test_plan_refuses_tables_that_do_not_fit(field: str, value: object) -> None:
+    with pytest.raises(CogmapError, match=field):
+        plan(replace(random_reach(0), **{field: value}), rng=np.random.default_rng(0))

@@ -1,0 +1,130 @@
+"""Expected free energy: the shared rollout against the plain one, and closed forms."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from cogmap.model.errors import CogmapError
+from cogmap.planning import GENERATORS, ExpectedFreeEnergy, Policies, evaluate, evaluate_plain, map_guided, rollout
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reaches import GRID, LINE, grid_reach, random_reach
+
+TERMS = [field.name for field in fields(ExpectedFreeEnergy)]
+HALL = [(0, j) for j in range(5)]
+
+
+def assert_same(ours: ExpectedFreeEnergy, plain: ExpectedFreeEnergy) -> None:
+    for name in TERMS:
+        np.testing.assert_allclose(getattr(ours, name), getattr(plain, name), atol=1e-9, err_msg=name)
+
+
+@settings(max_examples=20, deadline=None)
+@given(
+    st.integers(0, 10**6),
+    st.sampled_from(sorted(GENERATORS)),
+    st.sampled_from([GRID, LINE]),
+    st.integers(1, 6),
+    st.booleans(),
+)
+def test_equals_the_plain_evaluation(seed: int, name: str, motions, places: int, sparse: bool) -> None:
+    look_ahead = 3 if motions is LINE else 2
+    reach = random_reach(seed, motions=motions, places=places, look_ahead=look_ahead, sparse=sparse)
+    policies = GENERATORS[name](reach)
+    assert_same(evaluate(reach, policies), evaluate_plain(reach, policies))
+
+
+def test_equals_the_plain_evaluation_beyond_the_tables() -> None:
+    reach = random_reach(3)
+    rng = np.random.default_rng(3)
+    policies = Policies(rng.integers(0, 5, (20, 9)))
+    assert reach.sight_information.shape[1] < 9
+    assert_same(evaluate(reach, policies), evaluate_plain(reach, policies))
+
+
+def test_parts_equal_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    reach = random_reach(5)
+    policies = GENERATORS["self_avoiding"](reach)
+    whole = evaluate(reach, policies)
+    monkeypatch.setattr(rollout, "CHUNK", 400)
+    assert_same(evaluate(reach, policies), whole)
+
+
+def test_input_is_left_as_it_was() -> None:
+    reach = random_reach(5)
+    before = {f.name: np.copy(getattr(reach, f.name)) for f in fields(reach) if f.name != "motions"}
+    evaluate(reach, map_guided(reach))
+    for name, value in before.items():
+        np.testing.assert_array_equal(getattr(reach, name), value)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6))
+def test_information_is_never_negative(seed: int) -> None:
+    terms = evaluate(reach := random_reach(seed), map_guided(reach))
+    for name in TERMS[:4]:
+        assert (getattr(terms, name) >= -1e-12).all()
+
+
+def test_lumped_sights_equal_sights_one_by_one() -> None:
+    reach = random_reach(1, places=4, sights=3)
+    reach = replace(reach, multiplicity=np.array([1.0, 3.0, 2.0]))
+    copies = [1, 3, 2]
+    apart = replace(
+        reach,
+        A=np.repeat(reach.A / reach.multiplicity[:, None], copies, axis=0),
+        multiplicity=np.ones(6),
+        log_C=np.repeat(reach.log_C, copies),
+    )
+    policies = map_guided(reach)
+    assert_same(evaluate(reach, policies), evaluate(apart, policies))
+
+
+def test_staying_does_not_collect_the_same_novelty_again() -> None:
+    reach = grid_reach(HALL, visited=HALL[:1], at=(0, 1), look_ahead=4)
+    stays = evaluate(reach, Policies(np.full((1, 4), GRID.stay)))
+    once = reach.sight_information[1, 1]
+    assert once > 6.0
+    assert once < stays.sight_information[0] < once + 0.5
+
+
+def test_known_place_in_closed_form() -> None:
+    # a line with certain moves and sights: no uncertainty is left but what the tables say
+    reach = random_reach(0, motions=LINE, places=2, sights=2, look_ahead=2)
+    B = np.zeros((2, 2, 3))
+    B[0, :, 0] = B[1, :, 1] = 1.0
+    B[[0, 1], [0, 1], 2] = 1.0
+    reach = replace(reach, B=B, A=np.eye(2), multiplicity=np.ones(2), belief=np.array([1.0, 0.0]))
+    terms = evaluate(reach, Policies(np.array([[1, 2], [1, 0]])))
+    I, J, C = reach.sight_information, reach.transition_information, reach.log_C  # noqa: E741
+    np.testing.assert_allclose(terms.state_information, 0.0, atol=1e-12)
+    np.testing.assert_allclose(terms.sight_information, [I[1, 2], I[1, 1] + I[0, 1]])
+    np.testing.assert_allclose(terms.transition_information, [J[0, 1, 1] + J[1, 2, 1], J[0, 1, 1] + J[1, 0, 1]])
+    np.testing.assert_allclose(terms.utility, [2 * C[1], C[1] + C[0]])
+    risk = reach.collision_cost * reach.collision
+    np.testing.assert_allclose(terms.collision, [risk[0, 1], risk[0, 1] + risk[1, 0]])
+
+
+def test_state_information_of_a_lost_agent_is_one_bit() -> None:
+    reach = random_reach(0, motions=LINE, places=2, sights=2, look_ahead=1)
+    still = np.repeat(np.eye(2)[:, :, None], 3, axis=2)
+    reach = replace(reach, B=still, A=np.eye(2), multiplicity=np.ones(2), belief=np.array([0.5, 0.5]))
+    assert evaluate(reach, Policies(np.array([[2]]))).state_information[0] == pytest.approx(np.log(2))
+
+
+def test_terms_add_up_and_explain_themselves() -> None:
+    reach = random_reach(2)
+    terms = evaluate(reach, map_guided(reach))
+    row = terms.row(1)
+    gains = sum(row[name] for name in TERMS[:4])
+    assert row["G"] == pytest.approx(row["collision"] - gains - row["utility"])
+    assert list(row) == [*TERMS, "G"]
+    assert len(terms) == len(map_guided(reach))
+
+
+@pytest.mark.parametrize("wrong", [-1, 5])
+def test_unknown_action(wrong: int) -> None:
+    with pytest.raises(CogmapError, match=r"0\.\.4"):
+        evaluate(random_reach(0), Policies(np.array([[0, wrong]])))

@@ -1,0 +1,44 @@
+"""Where an agent lives: room mazes as Gymnasium environments, and exact oracles."""
+
+from __future__ import annotations
+
+from .builtin import MAZES
+from .drawing import draw, label_colour
+from .environment import MazeEnv, Observation
+from .errors import WorldError
+from .generate import comb, hall, random_maze, rings, spiral
+from .load import load_world, register_worlds
+from .maze import Door, Label, Maze, Position
+from .motions import GRID, Motions
+from .oracle import covering_steps, covering_walk, shortest_path
+from .text import format_maze, parse_maze, read_maze
+
+__all__ = [
+    "GRID",
+    "MAZES",
+    "Door",
+    "Label",
+    "Maze",
+    "MazeEnv",
+    "Motions",
+    "Observation",
+    "Position",
+    "WorldError",
+    "comb",
+    "covering_steps",
+    "covering_walk",
+    "draw",
+    "format_maze",
+    "hall",
+    "label_colour",
+    "load_world",
+    "parse_maze",
+    "random_maze",
+    "read_maze",
+    "register_worlds",
+    "rings",
+    "shortest_path",
+    "spiral",
+]
+
+register_worlds()

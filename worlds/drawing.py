@@ -1,0 +1,109 @@
+"""A maze as an image, with numpy alone."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .maze import Door, Label, Maze, Position
+
+Image = NDArray[np.uint8]
+
+CELL = 40  # pixels a room, walls included
+_WALL = 4  # thickness of a room's wall; two adjacent rooms have one each
+_GAP = 12  # pixels from a room's corner to a door
+
+_DARK, _LIGHT, _GROUND = (34, 34, 34), (255, 255, 255), (70, 70, 70)
+
+# Okabe and Ito (2008), eight colours told apart with any colour vision; black is left to the walls
+_PALETTE = np.array(
+    [
+        (230, 159, 0),
+        (86, 180, 233),
+        (0, 158, 115),
+        (240, 228, 66),
+        (0, 114, 178),
+        (213, 94, 0),
+        (204, 121, 167),
+        (153, 153, 153),
+    ]
+)
+_TINTS = (0.0, 0.5, -0.35)  # towards white (> 0) or black (< 0)
+
+
+def label_colour(label: Label) -> tuple[int, int, int]:
+    """RGB of a label, a function of the label alone.
+
+    The numbers 0 to 23 have colours of their own; then they repeat. Words are hashed onto the palette.
+    """
+    if isinstance(label, int):
+        index, tint = label % len(_PALETTE), _TINTS[label // len(_PALETTE) % len(_TINTS)]
+    else:
+        code = zlib.crc32(label.encode())
+        index, tint = code % len(_PALETTE), (code >> 8) % 64 / 64 * 0.95 - 0.35
+    towards = 255 if tint > 0 else 0
+    red, green, blue = (_PALETTE[index] * (1 - abs(tint)) + towards * abs(tint)).astype(int).tolist()
+    return red, green, blue
+
+
+def draw(
+    maze: Maze,
+    *,
+    agent: Position | None = None,
+    rooms: Collection[Position] = (),
+    doors: Collection[Door] = (),
+) -> Image:
+    """The maze as uint8 (rows·40, columns·40, 3).
+
+    Rooms have the colour of their label, doors are gaps in the dark walls. Closed rooms are striped,
+    closed doors are walls with a white line. The agent is a white disc with a dark rim.
+    """
+    height, width = maze.shape
+    image = np.full((height * CELL, width * CELL, 3), _GROUND, dtype=np.uint8)
+    for room in maze.rooms:
+        _draw_room(_cell(image, room), label_colour(maze.sights[room]), closed=room in rooms)
+    for door in maze.doors:
+        shut = door in doors or door[0] in rooms or door[1] in rooms
+        _draw_door(image, door, maze, closed=shut)
+    if agent is not None:
+        _draw_agent(_cell(image, agent))
+    return image
+
+
+def _cell(image: Image, room: Position) -> Image:
+    row, column = room
+    return image[row * CELL : (row + 1) * CELL, column * CELL : (column + 1) * CELL]
+
+
+def _draw_room(cell: Image, colour: tuple[int, int, int], *, closed: bool) -> None:
+    cell[:] = _DARK
+    floor = cell[_WALL:-_WALL, _WALL:-_WALL]
+    floor[:] = colour
+    if closed:
+        row, column = np.indices(floor.shape[:2])
+        floor[(row + column) % 8 < 4] = _DARK
+
+
+def _draw_door(image: Image, door: Door, maze: Maze, *, closed: bool) -> None:
+    (row, column), (other_row, _) = door
+    along = slice(_GAP, CELL - _GAP)
+    if row == other_row:
+        image = image.transpose(1, 0, 2)  # a door to the right is a door downwards in the transposed image
+        row, column = column, row
+    edge = (row + 1) * CELL
+    strip = image[edge - _WALL : edge + _WALL, column * CELL : (column + 1) * CELL]
+    if closed:
+        strip[_WALL - 1 : _WALL + 1, along] = _LIGHT
+    else:
+        strip[:_WALL, along] = label_colour(maze.sights[door[0]])
+        strip[_WALL:, along] = label_colour(maze.sights[door[1]])
+
+
+def _draw_agent(cell: Image) -> None:
+    row, column = np.indices(cell.shape[:2])
+    distance = np.hypot(row - (CELL - 1) / 2, column - (CELL - 1) / 2)
+    cell[distance < CELL * 0.27] = _DARK
+    cell[distance < CELL * 0.2] = _LIGHT

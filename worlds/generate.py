@@ -1,0 +1,95 @@
+"""Families of mazes of any size. Corridors keep an empty cell apart, as all adjacent rooms share a door."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from .errors import WorldError
+from .maze import Label, Maze, Position
+from .motions import GRID
+
+
+def comb(teeth: int, length: int, *, sights: int | None = None, rng: np.random.Generator | None = None) -> Maze:
+    """A corridor with `teeth` dead ends of `length` rooms: 2·teeth - 1 + teeth·length rooms.
+
+    In this and the other families `sights=None` makes all sights different, `sights=k` draws each of k
+    at random with `rng`.
+
+    Raises:
+        WorldError: a size is too small, or `sights` is given without `rng`.
+    """
+    _at_least("comb", teeth=(teeth, 1), length=(length, 0))
+    spine = [(0, column) for column in range(2 * teeth - 1)]
+    tines = [(row, 2 * tooth) for tooth in range(teeth) for row in range(1, length + 1)]
+    return _furnish(f"comb_{teeth}x{length}", spine + tines, sights, rng)
+
+
+def spiral(side: int, *, sights: int | None = None, rng: np.random.Generator | None = None) -> Maze:
+    """One corridor wound inwards from (0, 0) in a square of `side` by `side` cells."""
+    _at_least("spiral", side=(side, 1))
+    rooms: list[Position] = [(0, 0)]
+    arms = [side - 1, *(side - 1 - 2 * (i // 2) for i in range(side))]
+    for i, arm in enumerate(arms):
+        if arm < 2 and i >= 2:
+            break  # a shorter arm would touch the one before it
+        down, right = ((0, 1), (1, 0), (0, -1), (-1, 0))[i % 4]
+        row, column = rooms[-1]
+        rooms.extend((row + down * k, column + right * k) for k in range(1, arm + 1))
+    return _furnish(f"spiral_{side}", rooms, sights, rng)
+
+
+def rings(count: int, side: int = 3, *, sights: int | None = None, rng: np.random.Generator | None = None) -> Maze:
+    """`count` square rings of `side` by `side` cells in a row, each joined to the next by one room."""
+    _at_least("rings", count=(count, 1), side=(side, 3))
+    ring = [(r, c) for r in range(side) for c in range(side) if {r, c} & {0, side - 1}]
+    rooms = [(r, c + k * (side + 1)) for k in range(count) for r, c in ring]
+    joints = [(side // 2, k * (side + 1) - 1) for k in range(1, count)]
+    return _furnish(f"rings_{count}x{side}", rooms + joints, sights, rng)
+
+
+def hall(rows: int, columns: int, *, sights: int | None = 3, rng: np.random.Generator | None = None) -> Maze:
+    """An open hall of `rows` by `columns` rooms."""
+    _at_least("hall", rows=(rows, 1), columns=(columns, 1))
+    return _furnish(f"hall_{rows}x{columns}", np.ndindex(rows, columns), sights, rng)
+
+
+def random_maze(rooms: int, *, sights: int | None = None, rng: np.random.Generator) -> Maze:
+    """A connected maze of `rooms` rooms, each built on at a free side drawn uniformly."""
+    _at_least("random_maze", rooms=(rooms, 1))
+    taken: set[Position] = {(0, 0)}
+    free = _sides((0, 0))
+    while len(taken) < rooms:
+        pick = int(rng.integers(len(free)))
+        free[pick], free[-1] = free[-1], free[pick]
+        room = free.pop()
+        if room not in taken:
+            taken.add(room)
+            free.extend(side for side in _sides(room) if side not in taken)
+    top, left = min(row for row, _ in taken), min(column for _, column in taken)
+    return _furnish(f"random_{rooms}", ((row - top, column - left) for row, column in taken), sights, rng)
+
+
+def _sides(room: Position) -> list[Position]:
+    return [(room[0] + down, room[1] + right) for down, right in GRID.displacements if down or right]
+
+
+def _furnish(name: str, rooms: Iterable[tuple[int, ...]], sights: int | None, rng: np.random.Generator | None) -> Maze:
+    places = sorted({(room[0], room[1]) for room in rooms})
+    if sights is None:
+        labels: list[int] = list(range(len(places)))
+    elif sights < 1:
+        raise WorldError(f"{name}: {sights} sights are too few; use at least 1, or None for all different")
+    elif rng is None:
+        raise WorldError(f"{name}: repeating sights are drawn at random; give rng, or sights=None")
+    else:
+        labels = rng.integers(sights, size=len(places)).tolist()
+    drawn: dict[Position, Label] = dict(zip(places, labels, strict=True))
+    return Maze(name, drawn)
+
+
+def _at_least(family: str, **sizes: tuple[int, int]) -> None:
+    for what, (size, least) in sizes.items():
+        if size < least:
+            raise WorldError(f"{family}: {what} is {size}; use at least {least}")

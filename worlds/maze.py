@@ -1,0 +1,151 @@
+"""The layout of a maze: rooms on a grid, a sight in each, a door between all adjacent rooms."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+from .errors import WorldError
+from .motions import GRID
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+Position = tuple[int, int]
+Label = int | str
+Door = tuple[Position, Position]
+
+LARGEST_LABEL = 2**31 - 1
+
+
+@dataclass(frozen=True, slots=True)
+class Maze:
+    """An immutable maze.
+
+    Attributes:
+        name: what the maze is called in results and errors.
+        sights: the label seen in each room, by (row, column); all whole numbers >= 0 or all words.
+        rooms: the rooms in row-major order.
+
+    Raises:
+        WorldError: no rooms, rooms that cannot be reached from one another, bad positions or labels.
+    """
+
+    name: str
+    sights: Mapping[Position, Label]
+    rooms: tuple[Position, ...] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        if not self.sights:
+            raise WorldError(f"maze {self.name!r} has no rooms; give at least one")
+        sights = {_position(self.name, room): label for room, label in self.sights.items()}
+        sights = _labels(self.name, sights)
+        object.__setattr__(self, "sights", MappingProxyType(sights))
+        object.__setattr__(self, "rooms", tuple(sorted(sights)))
+        if lost := unreachable(self.rooms):
+            raise WorldError(
+                f"maze {self.name!r}: {name_rooms(lost)} cannot be reached from the rest; join or remove them"
+            )
+
+    def __hash__(self) -> int:
+        return hash((self.name, tuple(self.sights[room] for room in self.rooms), self.rooms))
+
+    def __reduce__(self) -> tuple[type[Maze], tuple[str, dict[Position, Label]]]:
+        # a MappingProxyType cannot be pickled
+        return Maze, (self.name, dict(self.sights))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the grid that holds every room."""
+        return max(row for row, _ in self.rooms) + 1, max(column for _, column in self.rooms) + 1
+
+    @property
+    def doors(self) -> tuple[Door, ...]:
+        """Every door once, as a pair of rooms in row-major order."""
+        return tuple((a, b) for a in self.rooms for b in _around(a) if b in self.sights and a < b)
+
+    def neighbours(self, room: Position) -> tuple[Position, ...]:
+        """The rooms behind the doors of `room`, in the order up, down, left, right.
+
+        Raises:
+            WorldError: there is no such room.
+        """
+        if room not in self.sights:
+            raise WorldError(f"maze {self.name!r} has no room at {room}; see maze.rooms")
+        return tuple(other for other in _around(room) if other in self.sights)
+
+    def to_networkx(self) -> nx.Graph[Position]:
+        """An undirected graph: a node a room with attribute `sight`, an edge a door."""
+        import networkx as nx
+
+        graph: nx.Graph[Position] = nx.Graph(name=self.name)
+        graph.add_nodes_from((room, {"sight": self.sights[room]}) for room in self.rooms)
+        graph.add_edges_from(self.doors)
+        return graph
+
+
+def unreachable(rooms: Iterable[Position]) -> tuple[Position, ...]:
+    """The rooms outside the largest connected part, in row-major order."""
+    left = set(rooms)
+    parts: list[set[Position]] = []
+    while left:
+        parts.append(_part(left, min(left)))
+        left -= parts[-1]
+    parts.sort(key=len, reverse=True)
+    return tuple(sorted(room for part in parts[1:] for room in part))
+
+
+def name_rooms(rooms: tuple[Position, ...], *, most: int = 8) -> str:
+    """'room (0, 1)' or 'rooms (0, 1), (0, 2), ... and 3 more', for messages."""
+    named = ", ".join(str(room) for room in rooms[:most])
+    more = f" and {len(rooms) - most} more" if len(rooms) > most else ""
+    return f"room{'s' if len(rooms) > 1 else ''} {named}{more}"
+
+
+def _around(room: Position) -> tuple[Position, ...]:
+    row, column = room
+    return tuple((row + down, column + right) for down, right in GRID.displacements if down or right)
+
+
+def _part(rooms: set[Position], start: Position) -> set[Position]:
+    found, edge = {start}, [start]
+    while edge:
+        new = [room for room in _around(edge.pop()) if room in rooms and room not in found]
+        found.update(new)
+        edge.extend(new)
+    return found
+
+
+def _position(name: str, room: Any) -> Position:
+    try:
+        row, column = (operator.index(x) for x in room)
+    except (TypeError, ValueError) as error:
+        raise WorldError(f"maze {name!r}: {room!r} is no position; use (row, column), whole numbers") from error
+    if row < 0 or column < 0:
+        raise WorldError(f"maze {name!r}: room {room} lies off the grid; rows and columns count from 0")
+    return row, column
+
+
+def _labels(name: str, sights: Mapping[Position, Any]) -> dict[Position, Label]:
+    if all(isinstance(label, str) for label in sights.values()):
+        for room, label in sights.items():
+            if not label or not label.isprintable() or len(label.split()) != 1 or label != label.strip():
+                raise WorldError(f"maze {name!r}: label {label!r} of room {room} is no word; use one without spaces")
+        return dict(sights)
+    return {room: _number(name, room, label) for room, label in sights.items()}
+
+
+def _number(name: str, room: Position, label: Any) -> int:
+    try:
+        number = -1 if isinstance(label, bool) else operator.index(label)
+    except TypeError:
+        number = -1
+    if not 0 <= number <= LARGEST_LABEL:
+        raise WorldError(
+            f"maze {name!r}: label {label!r} of room {room} does not fit; "
+            f"use whole numbers from 0 to {LARGEST_LABEL} in every room, or a word in every room"
+        )
+    return number
