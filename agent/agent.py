@@ -201,6 +201,8 @@ class Agent:
             if action is not None and was_open and self.certain:
                 self._mapper.enter(self._belief.place, action, step=self._steps)
             self._belief = advance(self.map, self._belief.message, evidence, self.settings.filter)
+            if self.certain and not self.map.visited[self._belief.place]:
+                self._belief = self._belief.committed()
         return evidence
 
     def _remember(self, evidence: Evidence) -> None:
@@ -233,7 +235,14 @@ class Agent:
     def _choose(self) -> None:
         settings = self.settings
         places, q = self.belief.message.by_place()
-        reach = cut_reach(self.map, places, q, look_ahead=settings.look_ahead, preferences=self._preferences())
+        reach = cut_reach(
+            self.map,
+            places,
+            q,
+            look_ahead=settings.look_ahead,
+            preferences=self._preferences(),
+            discount=settings.discount,
+        )
         self._plan = plan(
             reach,
             generator=settings.policies,

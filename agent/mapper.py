@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..inference.query import infer
 from ..inference.message import Belief, Evidence
+from ..inference.query import infer
 from ..model.cognitive_map import CognitiveMap
 from ..model.growth import growth_named
 from ..model.learning import Learner, Lesson

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
-from ..inference.query import ENGINES
 from ..inference.message import FilterOptions
+from ..inference.query import ENGINES
 from ..model.cognitive_map import Priors
 from ..model.errors import CogmapError
 from ..model.growth import GROWTHS
@@ -37,6 +37,7 @@ class Settings:
         engine: sum-product engine of the window: `numpy` or `gtsam`.
         filter: displacement prior, slip and support of the forward filter (ours).
         priors: concentrations before evidence (ours; the paper starts from the shape of its matrices).
+        discount: weight of each step of a policy relative to the one before (ours; paper: 1).
         goal_weight: weight of the utility term (paper: 1, and 2 in the Tolman maze).
         collision_cost: -log P(c = 1), what a collision costs, in nats (paper: binary; eq. 7).
 
@@ -58,6 +59,7 @@ class Settings:
     engine: str = "numpy"
     filter: FilterOptions = field(default_factory=FilterOptions)
     priors: Priors = field(default_factory=Priors)
+    discount: float = 1.0
     goal_weight: float = 1.0
     collision_cost: float = 1.0
 

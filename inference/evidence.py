@@ -15,11 +15,7 @@ def all_evidence(graph: FactorGraph, evidence: Mapping[str, Hashable] | None) ->
         CogmapError: the two contradict each other, a name or label is unknown, or an observed variable
             with several labels has no evidence.
     """
-    merged = dict(graph.evidence)
-    for name, label in (evidence or {}).items():
-        graph.variable_named(name).index(label)
-        if merged.setdefault(name, label) != label:
-            raise CogmapError(f"evidence: {name} is {merged[name]!r} in the graph already, not {label!r}")
+    merged = dict(graph.observe_all(evidence).evidence if evidence else graph.evidence)
     for variable in graph.variables:
         if variable.observed and variable.cardinality > 1 and variable.name not in merged:
             raise CogmapError(

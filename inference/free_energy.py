@@ -7,7 +7,6 @@ directed prior has Z_R = 1. F counts the factors as they are, so log Z_R stands 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 
@@ -72,7 +71,7 @@ def free_energy(
         likelihood: which factors are likelihoods; by default `is_likelihood`.
         engine: computes Z_R.
     """
-    graph = _observed(posterior.graph, posterior.evidence)
+    graph = posterior.graph.observe_all(posterior.evidence)
     expected = {factor.label: posterior.expected_log(factor) for factor in graph.factors}
     return _parts(graph, expected, posterior.entropy, posterior.log_evidence, likelihood, engine)
 
@@ -97,7 +96,7 @@ def free_energy_of(
     Raises:
         CogmapError: a latent variable is missing from `q`, or its probabilities are none.
     """
-    graph = _observed(graph, all_evidence(graph, evidence))
+    graph = graph.observe_all(all_evidence(graph, evidence))
     beliefs = _checked(graph, q)
     expected = {factor.label: _factorised_log(factor, beliefs) for factor in graph.factors}
     entropy = -sum(expected_log(belief, belief) for belief in beliefs.values())
@@ -134,12 +133,6 @@ def _parts(
         accuracy=accuracy,
         log_prior_normaliser=log_normaliser,
     )
-
-
-def _observed(graph: FactorGraph, evidence: Mapping[str, Hashable]) -> FactorGraph:
-    for name, label in evidence.items():
-        graph = graph.observe(name, label) if name not in graph.evidence else graph
-    return graph
 
 
 def _checked(graph: FactorGraph, q: Mapping[str, ArrayLike]) -> dict[str, FloatArray]:

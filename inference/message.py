@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,7 +70,7 @@ class FilterOptions:
     """
 
     displacement: float = 1e-4
-    slip: float = 1e-3
+    slip: float = 1e-4
     support: float = 1e-3
 
 
@@ -112,6 +112,24 @@ class Belief:
     def positions(self) -> dict[int, float]:
         """Q(p_t) of the positions (by number) that hold mass, the most probable first."""
         return _ranked(self.message.positions, self.message.mass)
+
+    def committed(self) -> Belief:
+        """The belief with the most probable place alone in its support; what the others held is dropped.
+
+        A map that is taught a place on the word of one hypothesis must not serve as evidence for the others.
+        """
+        at = self.message.places == self.place
+        kept = float(self.message.mass[at].sum())
+        previous, next_, mass = self.walks
+        there = next_ == self.place
+        message = Message(self.message.places[at], self.message.positions[at], self.message.mass[at] / kept)
+        return replace(
+            self,
+            message=message,
+            evidence=self.evidence + float(np.log(kept)),
+            dropped=1.0 - kept * (1.0 - self.dropped),
+            walks=(previous[there], next_[there], mass[there] / kept),
+        )
 
     @property
     def place(self) -> int:

@@ -18,7 +18,7 @@ def elimination(
     """Which variable goes when, and its separator: the variables its message speaks of.
 
     Without `order`: along time where variables have one (within a step, and for those without a time at
-    the end, by minimum fill), else by minimum fill; by minimum fill too where time would be too costly.
+    the end, by minimum fill), else by minimum fill; by minimum fill too where time is too costly.
 
     Args:
         problem: what is to be eliminated.
@@ -34,8 +34,8 @@ def elimination(
         plan = _eliminate(problem, [[i] for i in _as_told(problem, order) if i not in keep])
     else:
         plan = _eliminate(problem, _slices(problem, going))
-        if _too_large(problem, plan, limit):
-            plan = _eliminate(problem, [going])
+        if keep or _too_large(problem, plan, limit):
+            plan = min(plan, _eliminate(problem, [going]), key=lambda each: _total(problem, each))
     if cluster := _too_large(problem, plan, limit):
         names = ", ".join(problem.names[i] for i in cluster)
         raise CogmapError(
@@ -109,6 +109,10 @@ def _too_large(problem: Problem, plan: Elimination, limit: float) -> list[int] |
     if worst is None or _entries(problem, (worst[0], *worst[1])) <= limit:
         return None
     return [worst[0], *sorted(worst[1])]
+
+
+def _total(problem: Problem, plan: Elimination) -> float:
+    return sum(_entries(problem, (i, *around)) for i, around in plan)
 
 
 def _entries(problem: Problem, variables: Iterable[int]) -> float:

@@ -56,7 +56,7 @@ class Posterior:
     def joint(self, *names: str) -> FloatArray:
         """P(names | evidence), one axis a name, in the order given; for any set of variables.
 
-        Those among the `pairs` of the query, and those within one cluster, are at hand; others cost an elimination.
+        Those within one cluster, and the `pairs` of the query, are at hand; others cost an elimination.
         """
         if not names:
             raise CogmapError("joint: name at least one variable")

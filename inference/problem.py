@@ -10,7 +10,7 @@ import numpy as np
 
 from ..model.factor_graph import FactorGraph
 from ..model.factors import FloatArray, IntArray
-from .errors import ImpossibleEvidence, impossible
+from .errors import impossible
 from .evidence import fixed_indices
 from .substitution import Table, substitute
 
@@ -30,8 +30,8 @@ class Problem:
         names: name of each variable left; tables speak of them by index.
         cards: number of labels of each, all at least 2.
         times: time step of each.
-        tables: pairs (indices of the variables, values with one axis each, the largest value 1).
-        log_scale: log of the factor taken out of the tables.
+        tables: pairs (indices of the variables, values with one axis each).
+        log_scale: log of the product of all factors over known variables only.
         where: for each variable of the graph: (index of the variable left that carries it or None,
             map from that one's labels to its own, or the fixed index, or None where they are the same).
     """
@@ -58,9 +58,10 @@ class Problem:
         flat: IntArray = np.zeros((1,) * len(carriers), dtype=np.int64)
         for name, card in zip(names, shape, strict=True):
             flat = flat * card + self._own_index(name, carriers)
-        flat = np.broadcast_to(flat, joint.shape)
         size = math.prod(shape)
-        return np.bincount(flat.ravel(), weights=joint.ravel(), minlength=size).reshape(shape)
+        return np.asarray(np.bincount(flat.ravel(), weights=joint.ravel(), minlength=size), dtype=np.float64).reshape(
+            shape
+        )
 
     def labels(self, indices: Sequence[int]) -> dict[str, Hashable]:
         """The assignment of every variable of the graph, from an index for each variable left."""
@@ -84,15 +85,15 @@ class Problem:
 
 
 def reduce(graph: FactorGraph, given: Mapping[str, Hashable]) -> Problem:
-    """Slice the evidence out of every factor, substitute determined variables, scale tables to maximum 1.
+    """Slice the evidence out of every factor, then substitute determined variables.
 
     Raises:
-        ImpossibleEvidence: a factor is zero everywhere under the evidence.
+        ImpossibleEvidence: a factor over known variables only is zero.
     """
     fixed = fixed_indices(graph, given)
     free = [variable for variable in graph.variables if variable.name not in fixed]
     index = {variable.name: i for i, variable in enumerate(free)}
-    tables, log_scale = _sliced(graph, given, fixed, index)
+    tables, log_scale, blame = _sliced(graph, fixed, index)
     parents, tables = substitute(tables, len(free))
     left = [i for i in range(len(free)) if i not in parents]
     new = {old: i for i, old in enumerate(left)}
@@ -100,7 +101,7 @@ def reduce(graph: FactorGraph, given: Mapping[str, Hashable]) -> Problem:
     for name, old in index.items():
         root, mapping = parents.get(old, (old, None))
         where[name] = (new[root], mapping)
-    return Problem(
+    problem = Problem(
         graph=graph,
         given=given,
         names=tuple(free[i].name for i in left),
@@ -110,27 +111,26 @@ def reduce(graph: FactorGraph, given: Mapping[str, Hashable]) -> Problem:
         log_scale=log_scale,
         where=where,
     )
+    if blame:
+        raise impossible(problem, blame)
+    return problem
 
 
 def _sliced(
-    graph: FactorGraph, given: Mapping[str, Hashable], fixed: Mapping[str, int], index: Mapping[str, int]
-) -> tuple[list[Table], float]:
+    graph: FactorGraph, fixed: Mapping[str, int], index: Mapping[str, int]
+) -> tuple[list[Table], float, list[str]]:
+    """Every factor at the fixed indices: tables of free variables, log of the plain numbers, names of a zero."""
     tables: list[Table] = []
-    log_scale = 0.0
+    number, blame = 0.0, list[str]()
     for factor in graph.factors:
         names = [variable.name for variable in factor.scope]
         values = factor.dense()
-        if any(name in fixed for name in names):
-            values = values[tuple(fixed.get(name, slice(None)) for name in names)]
-        largest = float(values.max())
-        if largest <= 0:
-            raise _zero_factor(factor.label, graph, given, names)
-        log_scale += math.log(largest)
-        if scope := tuple(index[name] for name in names if name in index):
-            tables.append((scope, values if largest == 1 else values / largest))
-    return tables, log_scale
-
-
-def _zero_factor(label: str, graph: FactorGraph, given: Mapping[str, Hashable], names: list[str]) -> ImpossibleEvidence:
-    bare = Problem(graph, given, (), (), (), (), 0.0, {})
-    return ImpossibleEvidence(f"factor {label} is 0 everywhere under the evidence: {impossible(bare, names)}")
+        scope = tuple([index[name] for name in names if name in index])
+        if len(scope) < len(names):
+            values = values[tuple([fixed.get(name, slice(None)) for name in names])]
+        if scope:
+            tables.append((scope, values))
+        else:
+            number += math.log(values) if values > 0 else -math.inf
+            blame = blame or (names if number == -math.inf else [])
+    return tables, number, blame

@@ -37,13 +37,10 @@ def infer(
         CogmapError: unknown engine, variable or label, a bad `order`, or a cluster too large for the engine.
     """
     graph = graph.copy()
+    wanted = _checked_pairs(graph, pairs)
     problem = _problem(graph, evidence, engine)
     solution = _solve(problem, engine, order)
-    for names in pairs:
-        for name in [names] if isinstance(names, str) else names:
-            graph.variable_named(name)
-    joints = {(v.name,): solution.joint((v.name,)) for v in graph.variables}
-    joints |= {tuple(names): solution.joint(tuple(names)) for names in pairs}
+    joints = {names: solution.joint(names) for names in wanted}
     return Posterior(graph, problem.given, engine, solution.log_evidence, solution, joints)
 
 
@@ -54,7 +51,10 @@ def most_probable(
     engine: str = "numpy",
     order: Sequence[str] | None = None,
 ) -> MostProbable:
-    """The most probable assignment (max-product). Arguments and errors as for `infer`; ties are broken by the engine."""
+    """The most probable assignment, by max-product; ties are broken by the engine.
+
+    Arguments and errors as for `infer`.
+    """
     graph = graph.copy()
     problem = _problem(graph, evidence, engine)
     if engine == "brute":
@@ -77,6 +77,17 @@ def log_product(graph: FactorGraph, labels: Mapping[str, Hashable]) -> float:
         value = float(factor.dense()[tuple(indices[v.name] for v in factor.scope)])
         total += math.log(value) if value > 0 else -math.inf
     return total
+
+
+def _checked_pairs(graph: FactorGraph, pairs: Iterable[Sequence[str]]) -> list[tuple[str, ...]]:
+    wanted: list[tuple[str, ...]] = []
+    for names in pairs:
+        if isinstance(names, str) or not names:
+            raise CogmapError(f"inference: pairs holds {names!r}; give tuples of variable names")
+        for name in names:
+            graph.variable_named(name)
+        wanted.append(tuple(names))
+    return wanted
 
 
 def _problem(graph: FactorGraph, evidence: Mapping[str, Hashable] | None, engine: str) -> Problem:

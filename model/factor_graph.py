@@ -105,12 +105,15 @@ class FactorGraph:
 
     def observe(self, name: str | Variable, label: Hashable) -> FactorGraph:
         """A new graph with the evidence `name = label`; this one stays as it is."""
-        variable = self._member(name, "observe")
-        variable.index(label)
-        if self._evidence.get(variable.name, label) != label:
-            raise CogmapError(f"observe: {variable.name} is {self._evidence[variable.name]!r} already")
+        return self.observe_all({self._member(name, "observe").name: label})
+
+    def observe_all(self, evidence: Mapping[str, Hashable]) -> FactorGraph:
+        """A new graph with a label for each variable named; this one stays as it is."""
         graph = self.copy()
-        graph._evidence[variable.name] = label
+        for name, label in evidence.items():
+            self.variable_named(name).index(label)
+            if graph._evidence.setdefault(name, label) != label:
+                raise CogmapError(f"evidence: {name} is {graph._evidence[name]!r} in the graph already, not {label!r}")
         return graph
 
     def refreshed(self) -> FactorGraph:

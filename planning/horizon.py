@@ -40,7 +40,15 @@ class Preferences:
         return keys, values - norm, -norm
 
 
-def cut_reach(map_: CognitiveMap, places: Ints, belief: Floats, *, look_ahead: int, preferences: Preferences) -> Reach:
+def cut_reach(
+    map_: CognitiveMap,
+    places: Ints,
+    belief: Floats,
+    *,
+    look_ahead: int,
+    preferences: Preferences,
+    discount: float = 1.0,
+) -> Reach:
     """The generative model over what policies can lead to from `belief` over `places`.
 
     Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
@@ -77,6 +85,7 @@ def cut_reach(map_: CognitiveMap, places: Ints, belief: Floats, *, look_ahead: i
         position_information=position_information,
         transition_information=transition_information,
         successor=_successor(B, map_.motions.stay),
+        discount=discount,
         promise=sights[:, 1] + np.maximum(log_C @ A - (log_C @ multiplicity) / multiplicity.sum(), 0.0),
     )
 

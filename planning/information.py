@@ -73,35 +73,28 @@ def expected_gain(table: Floats, before: ArrayLike, visits: ArrayLike) -> Floats
     return interpolated(table, before + np.asarray(visits)) - interpolated(table, before)
 
 
-def interpolated(table: Floats, visits: Floats) -> Floats:
-    """I(visits): `table[r]` read at `visits[..., r]`, linear between integers, constant beyond N."""
-    return _read(table, np.arange(len(table)), visits)
+def interpolated(table: Floats, visits: Floats, rows: NDArray[np.int64] | None = None) -> Floats:
+    """I(visits), linear between integers, constant beyond N.
 
+    Args:
+        table: `[R, N + 1]` information of 0..N visits.
+        visits: `[..., R]`, or any shape where `rows` is given.
+        rows: the row of `table` for each of `visits`; by default the last axis counts them.
 
-def total_information(table: Floats, visits: Floats) -> Floats:
-    """`[P]` sum over r of I_r(visits[p, r]); what `interpolated` gives, summed, but faster.
-
-    Up to one visit I is linear, so one product serves all but the entries visited more than once.
+    Returns:
+        Nats, of the shape of `visits`.
     """
-    if table.shape[1] == 1:
-        return np.zeros(len(visits))
-    first = table[:, 1]
-    again = (visits.ravel() > 1.0).nonzero()[0]
-    policy, row = np.divmod(again, len(table))
-    more = visits.ravel().take(again)
-    correction = _read(table, row, more) - more * first.take(row)
-    return visits @ first + np.bincount(policy, correction, minlength=len(visits))
-
-
-def _read(table: Floats, row: NDArray[np.int64], visits: Floats) -> Floats:
-    """I_row(visits), elementwise."""
     last = table.shape[1] - 1
+    if rows is None:
+        rows = np.arange(len(table))
     if last == 0:
-        return np.zeros(visits.shape)
-    visits = np.minimum(visits, last)
-    low = np.minimum(visits.astype(np.int64), last - 1)
-    left = table[row, low]
-    return left + (visits - low) * (table[row, low + 1] - left)
+        return table[:, 0][np.broadcast_to(rows, visits.shape)]
+    bounded = np.minimum(visits, last)
+    low = np.minimum(bounded.astype(np.int64), last - 1)
+    at = rows * (last + 1) + low
+    flat = table.ravel()
+    base = flat.take(at)
+    return base + (bounded - low) * (flat.take(at + 1) - base)
 
 
 def _checked(alpha: ArrayLike, multiplicity: ArrayLike | None, steps: int) -> tuple[Floats, Floats]:

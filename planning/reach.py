@@ -40,6 +40,7 @@ class Reach:
         successor: `[R, K]` the place each action most probably leads to on the map; `-1` where the
             map says blocked or knows nothing beyond.
         promise: `[R]` what a first visit is worth, in nats (for generators that look for goals).
+        discount: weight of each step of a policy relative to the one before, above 0, at most 1.
     """
 
     motions: Motions
@@ -57,6 +58,7 @@ class Reach:
     transition_information: Floats
     successor: Ints
     promise: Floats
+    discount: float = 1.0
 
     def check(self) -> None:
         """Raise `CogmapError` naming the first table that is of the wrong shape or no probability."""
@@ -75,6 +77,8 @@ class Reach:
             raise CogmapError("reach: collision is no probability; give numbers from 0 to 1")
         if not (np.isfinite(self.log_C).all() and np.isfinite(self.collision_cost)):
             raise CogmapError("reach: log_C and collision_cost must be finite; an outcome never wanted needs a floor")
+        if not 0.0 < self.discount <= 1.0:
+            raise CogmapError(f"reach: discount is {self.discount}; give a number above 0, at most 1")
         if not self.multiplicity.min() >= 1.0:
             raise CogmapError("reach: multiplicity is below one; each row of A stands for one sight or more")
         if self.successor.min() < -1 or self.successor.max() >= len(self.belief):

@@ -31,17 +31,20 @@ def _terms(reach: Reach, policy: Sequence[int]) -> list[float]:
     belief: list[float] = reach.belief.tolist()
     visits = [0.0 for _ in places]
     attempts = [[0.0 for _ in range(len(reach.motions))] for _ in places]
-    for action in policy:
+    for step, action in enumerate(policy):
+        weight = reach.discount**step
         before, belief = belief, predicted_places(reach, belief, action)
-        total[0] += state_information(reach, belief)
+        total[0] += weight * state_information(reach, belief)
         for s in places:
-            total[1] += gain(reach.sight_information[s].tolist(), visits[s], belief[s])
-            total[2] += gain(reach.position_information[s].tolist(), visits[s], belief[s])
-            total[3] += gain(reach.transition_information[s, action].tolist(), attempts[s][action], before[s])
+            total[1] += weight * gain(reach.sight_information[s].tolist(), visits[s], belief[s])
+            total[2] += weight * gain(reach.position_information[s].tolist(), visits[s], belief[s])
+            total[3] += weight * gain(reach.transition_information[s, action].tolist(), attempts[s][action], before[s])
             visits[s] += belief[s]
             attempts[s][action] += before[s]
-        total[4] += sum(mass * float(reach.log_C[o]) for o, mass in enumerate(predicted_sights(reach, belief)))
-        total[5] += reach.collision_cost * sum(before[s] * float(reach.collision[s, action]) for s in places)
+        sights = enumerate(predicted_sights(reach, belief))
+        total[4] += weight * sum(mass * float(reach.log_C[o]) for o, mass in sights)
+        risk = sum(before[s] * float(reach.collision[s, action]) for s in places)
+        total[5] += weight * reach.collision_cost * risk
     return total
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
-from .information import total_information
+from .information import interpolated
 from .policies.base import Policies
 from .reach import Reach
 
@@ -61,7 +61,8 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
     """Expected free energy of each policy a_1..a_L from Q_0 = `reach.belief` (eqs. 4, 5 and 8).
 
     Q_t(s') = sum_s B[s', s, a_t] Q_{t-1}(s), predicted sights P_t = A Q_t, and with
-    m_s = sum_{t'<t} Q_t'(s) visits and n_sa = sum_{t'<t, a_t'=a} Q_{t'-1}(s) attempts before step t
+    m_s = sum_{t'<t} Q_t'(s) visits and n_sa = sum_{t'<t, a_t'=a} Q_{t'-1}(s) attempts before step t,
+    and each step t weighted by discount^(t-1),
 
         state information       sum_t H[P_t] - sum_s Q_t(s) H[A[:, s]]
         sight information       sum_t sum_s I_s(m_s + Q_t(s)) - I_s(m_s), I from `sight_information`
@@ -72,8 +73,8 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
         collision               collision_cost sum_t sum_s Q_{t-1}(s) collision[s, a_t]
 
     Entropies are over all sights: a row of mass m and multiplicity k adds -m ln(m / k). I and J are
-    linear between integers and constant beyond their table. Both telescope, so only the totals of a
-    policy matter, and beliefs are rolled forward once for each prefix that policies share.
+    linear between integers and constant beyond their table, so nothing is collected twice in a rollout.
+    Beliefs and gains are rolled forward once for each prefix that policies share.
     `reference.evaluate_plain` is the same, line by line.
 
     Raises:
@@ -83,105 +84,106 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
     if actions.min() < 0 or actions.max() >= len(reach.motions):
         raise CogmapError(f"evaluate: actions must be 0..{len(reach.motions) - 1}; one policy has another")
     tables = _Tables.of(reach)
-    size = max(1, CHUNK // (tables.risk.size + actions.shape[1] * len(reach.belief)))
+    size = max(1, CHUNK // (tables.risk.size or 1))
     parts = [_evaluate(tables, actions[i : i + size]) for i in range(0, len(actions), size)]
-    columns = parts[0] if len(parts) == 1 else [np.concatenate(column) for column in zip(*parts, strict=True)]
-    return ExpectedFreeEnergy(*columns)
+    terms = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+    return ExpectedFreeEnergy(*terms)
 
 
 @dataclass(frozen=True, slots=True)
 class _Tables:
-    """The tables of `Reach` laid out for the rollout: (action, place) flattened into one axis `K R`."""
+    """The tables of `Reach` laid out for the rollout."""
 
     belief: Floats  # [R]
     B: Floats  # [K, R, R], B[a, s, s']
     A: Floats  # [R, O]
-    ambiguity: Floats  # [R] H[A[:, s]]
+    ambiguity: Floats  # [R] H[A[:, s]], without the multiplicity, which cancels in the state information
     utility: Floats  # [R] expected log preference
-    risk: Floats  # [K R] expected cost of collision
+    risk: Floats  # [K, R] expected cost of collision
     sight: Floats  # [R, N + 1]
     position: Floats  # [R, N + 1]
-    transition: Floats  # [K R, N + 1]
+    transition: Floats  # [K, R, N + 1]
+    discount: float
 
     @classmethod
     def of(cls, reach: Reach) -> _Tables:
         A = np.ascontiguousarray(reach.A.T)
-        transition = reach.transition_information.transpose(1, 0, 2)
         return cls(
             belief=reach.belief,
             B=np.ascontiguousarray(reach.B.transpose(2, 1, 0)),
             A=A,
             ambiguity=_entropy(A),
             utility=A @ reach.log_C,
-            risk=reach.collision_cost * reach.collision.T.ravel(),
+            risk=np.ascontiguousarray(reach.collision_cost * reach.collision.T),
             sight=reach.sight_information,
             position=reach.position_information,
-            transition=transition.reshape(-1, transition.shape[-1]),
+            transition=np.ascontiguousarray(reach.transition_information.transpose(1, 0, 2)),
+            discount=reach.discount,
         )
 
 
-def _evaluate(tables: _Tables, actions: Ints) -> list[Floats]:
-    """The six terms, each `[P]`."""
-    beliefs, node = _roll_forward(tables, actions)
-    attempts = _attempts(beliefs, node, actions, len(tables.B))
-    visits = attempts @ tables.B.reshape(-1, len(tables.belief))
-    surprise = _entropy(beliefs @ tables.A).take(node[:, 1:]).sum(1)
-    return [
-        surprise - visits @ tables.ambiguity,
-        total_information(tables.sight, visits),
-        total_information(tables.position, visits),
-        total_information(tables.transition, attempts),
-        visits @ tables.utility,
-        attempts @ tables.risk,
-    ]
+@dataclass(frozen=True, slots=True)
+class _Level:
+    """The distinct prefixes of one length: `n` nodes of the prefix tree."""
+
+    belief: Floats  # [n, R] Q_t
+    visits: Floats  # [n, R] expected visits so far
+    attempts: Floats  # [n, K, R] expected attempts so far
 
 
-def _roll_forward(tables: _Tables, actions: Ints) -> tuple[Floats, Ints]:
-    """Beliefs at the nodes of the prefix tree `[nodes, R]`, and the nodes of each policy `[P, L + 1]`."""
-    node = np.zeros((len(actions), actions.shape[1] + 1), dtype=np.int64)
-    level = tables.belief[None, :]
-    levels = [level]
-    above = node[:, 0]
-    offset = 1
-    for step, action in enumerate(actions.T, start=1):
-        level, above = _children(tables.B, level, above, action)
-        levels.append(level)
-        node[:, step] = above + offset
-        offset += len(level)
-    return np.concatenate(levels), node
+def _evaluate(tables: _Tables, actions: Ints) -> Floats:
+    """`[6, P]` the terms of each policy."""
+    kinds, places = tables.B.shape[:2]
+    level = _Level(tables.belief[None], np.zeros((1, places)), np.zeros((1, kinds, places)))
+    node = np.zeros(len(actions), dtype=np.int64)
+    total = np.zeros((6, len(actions)))
+    weight = 1.0
+    for column in actions.T:
+        # children are numbered action by action, so that one product serves all children of an action
+        child = column * len(level.belief) + node
+        present = np.zeros(kinds * len(level.belief), dtype=np.bool_)
+        present[child] = True
+        node = (np.cumsum(present) - 1)[child]
+        action, parent = np.divmod(np.flatnonzero(present), len(level.belief))
+        level, gains = _descend(tables, level, parent, action)
+        total += weight * gains[:, node]
+        weight *= tables.discount
+    return total
 
 
-def _children(B: Floats, level: Floats, above: Ints, action: Ints) -> tuple[Floats, Ints]:
-    """The next level of the tree `[children, R]`, and the child that each policy goes through `[P]`.
+def _descend(tables: _Tables, level: _Level, parent: Ints, action: Ints) -> tuple[_Level, Floats]:
+    """The next level of the tree, and `[6, n]` what the step to each of its nodes adds to the terms."""
+    before, visited = level.belief[parent], level.visits[parent]
+    attempts = level.attempts[parent]
+    belief = np.empty_like(before)
+    bounds = np.searchsorted(action, np.arange(len(tables.B) + 1)).tolist()
+    for a, B in enumerate(tables.B):
+        if bounds[a] < bounds[a + 1]:
+            here = slice(bounds[a], bounds[a + 1])
+            np.matmul(before[here], B, out=belief[here])
+    nodes = np.arange(len(action))
+    tried = attempts[nodes, action]
+    attempts[nodes, action] += before
+    rows = action[:, None] * before.shape[1] + np.arange(before.shape[1])
+    flat = tables.transition.reshape(-1, tables.transition.shape[-1])
+    gains = np.array(
+        [
+            _entropy(belief @ tables.A) - belief @ tables.ambiguity,
+            _gain(tables.sight, visited, belief),
+            _gain(tables.position, visited, belief),
+            _gain(flat, tried, before, rows),
+            belief @ tables.utility,
+            np.einsum("ns,ns->n", before, tables.risk[action]),
+        ]
+    )
+    return _Level(belief, visited + belief, attempts), gains
 
-    Children are numbered action by action, so that one product serves all children of an action.
-    """
-    kinds, parents = len(B), len(level)
-    child = action * parents + above
-    present = np.zeros(kinds * parents, dtype=bool)
-    present[child] = True
-    count = present.cumsum()
-    before = level.take(present.nonzero()[0] % parents, axis=0)
-    after: list[Floats] = []
-    low = 0
-    for a, high in enumerate(count[parents - 1 :: parents].tolist()):
-        if high > low:
-            after.append(before[low:high] @ B[a])
-        low = high
-    return np.concatenate(after), count[child] - 1
 
-
-def _attempts(beliefs: Floats, node: Ints, actions: Ints, kinds: int) -> Floats:
-    """`[P, K R]` expected attempts of each (action, place) along each policy."""
-    chosen = np.eye(kinds).take(actions, axis=0)
-    before = beliefs.take(node[:, :-1], axis=0)
-    return (chosen.transpose(0, 2, 1) @ before).reshape(len(actions), -1)
+def _gain(table: Floats, before: Floats, more: Floats, rows: Ints | None = None) -> Floats:
+    """`[n]` sum over places of I(before + more) - I(before)."""
+    return (interpolated(table, before + more, rows) - interpolated(table, before, rows)).sum(axis=1)
 
 
 def _entropy(mass: Floats) -> Floats:
-    """`[n]` entropy of rows `mass [n, O]`, lumps counted as one sight each.
-
-    The sights in a lump add its mass times the log of their number. That is linear in the mass, so it
-    is the same in H[P_t] as in the mean of H[A[:, s]], and their difference needs none of it.
-    """
+    """`[n]` entropy of rows `mass [n, O]`."""
     return -np.einsum("no,no->n", mass, np.log(np.maximum(mass, np.finfo(np.float64).tiny)))

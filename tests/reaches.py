@@ -52,6 +52,7 @@ def random_reach(
         transition_information=dirichlet_information(rng.random((places, kinds, 3)) + 1e-3, steps),
         successor=rng.integers(-1, places, (places, kinds)),
         promise=rng.random(places) * (rng.random(places) < 0.6),
+        discount=float(rng.choice([1.0, 0.9])),
     )
 
 

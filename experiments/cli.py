@@ -1,0 +1,47 @@
+"""The command `cogmap`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from .cli_explore import explore_command
+from .cli_group import CogmapGroup
+from .cli_worlds import worlds_command
+
+app = typer.Typer(
+    name="cogmap",
+    cls=CogmapGroup,
+    help="Agents that build their own map, as explicit discrete factor graphs.",
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        typer.echo(f"cogmap {version('cogmap')}")
+        raise typer.Exit
+
+
+@app.callback(invoke_without_command=True)
+def _cogmap(  # pyright: ignore[reportUnusedFunction]
+    context: typer.Context,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+
+
+app.command("worlds")(worlds_command)
+app.command("explore")(explore_command)
+
+
+def main() -> None:
+    """Entry point of the console script."""
+    app()

@@ -1,0 +1,88 @@
+"""`cogmap explore`: one walk for people, or a sweep."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from ..agent import Settings
+
+
+def explore_command(
+    world: Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, or a maze text file.")],
+    agent: Annotated[str, typer.Option(metavar="NAME", help="cogmap, frontier or random.")] = "cogmap",
+    runs: Annotated[
+        int | None, typer.Option(min=1, help="Walk so often, run i with seed S + i; without it, once and in detail.")
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="S: of the start room and of the agent.")] = 0,
+    look_ahead: Annotated[int, typer.Option(min=1, help="Steps that policies look ahead (cogmap only).")] = 6,
+    max_steps: Annotated[
+        int | None, typer.Option(min=1, help="Give up after so many; 50 a room + 50 unless given.")
+    ] = None,
+    policies: Annotated[
+        str, typer.Option(metavar="NAME", help="map_guided, self_avoiding, l_shaped or exhaustive (cogmap only).")
+    ] = "map_guided",
+    growth: Annotated[
+        str,
+        typer.Option(metavar="NAME", help="predicted, observed, static; several with commas, or all (cogmap only)."),
+    ] = "predicted",
+    engine: Annotated[str, typer.Option(metavar="NAME", help="Of the window: numpy or gtsam (cogmap only).")] = "numpy",
+    jobs: Annotated[int, typer.Option(min=1, help="Processes of a sweep.")] = 1,
+    json: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write the runs as JSON; a list if there are several growths.")
+    ] = None,
+    save: Annotated[
+        Path | None, typer.Option(metavar="FILE.npz", help="Save the agent (of a sweep, that of its first run).")
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="PICTURE", help="Where the picture goes; without --runs it is WORLD.png unless given."),
+    ] = None,
+) -> None:
+    """Explore a maze, until every room was visited and every transition is believed at 0.6 or more.
+
+    Exit code 0, or 1 where the one walk (without --runs) did not complete.
+    """
+    from ..worlds import load_world
+    from .cli_run import Request, run_single, run_sweep
+    from .output import check_outputs, check_picture
+
+    maze = load_world(world).maze
+    settings = _settings(growth, look_ahead=look_ahead, policies=policies, engine=engine)
+    sweep = runs is not None or len(settings) > 1
+    picture = out if sweep or out is not None else Path(f"{maze.name}.png")
+    _check_kept(agent, len(settings), save, out)
+    check_outputs([json, save, picture])
+    if picture is not None:
+        check_picture(picture)
+    request = Request(maze, agent, seed, max_steps, jobs, json, save, picture)
+    if sweep:
+        run_sweep(request, settings, runs or 1)
+    else:
+        run_single(request, settings[0])
+
+
+def _settings(growth: str, *, look_ahead: int, policies: str, engine: str) -> list[Settings]:
+    from ..agent import Settings
+    from ..model.growth import GROWTHS
+
+    names = list(GROWTHS) if growth == "all" else [name.strip() for name in growth.split(",")]
+    return [
+        Settings(growth=name, look_ahead=look_ahead, policies=policies, engine=engine) for name in dict.fromkeys(names)
+    ]
+
+
+def _check_kept(agent: str, growths: int, save: Path | None, out: Path | None) -> None:
+    from ..model.errors import CogmapError
+    from .walkers import check_agent
+
+    check_agent(agent)
+    if save is not None and agent != "cogmap":
+        raise CogmapError(f"agent {agent} has no map to save; leave --save out, or use --agent cogmap")
+    if growths > 1 and agent != "cogmap":
+        raise CogmapError(f"agent {agent} does not grow a map; leave --growth out, or use --agent cogmap")
+    if growths > 1 and (save or out):
+        raise CogmapError("--save and --out keep one walk; give one --growth, or leave them out")

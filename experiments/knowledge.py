@@ -1,0 +1,75 @@
+"""Scoring a map with the truth, which the agent never sees."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..model import CognitiveMap
+from ..worlds import GRID, Maze, Position
+
+BELIEVED = 0.6
+"""A true transition counts as learned from this probability on."""
+
+
+class Truth:
+    """The transitions of a maze with everything open, to compare maps with.
+
+    The room `r` is the place that a map has at position `r - start`. The true transitions are those of every
+    room under every action: walls lead back, `stay` stays.
+
+    Args:
+        maze: the layout.
+        start: the room that the agent takes as its origin.
+    """
+
+    def __init__(self, maze: Maze, start: Position) -> None:
+        self._names = [(row - start[0], column - start[1]) for row, column in maze.rooms]
+        number = {room: i for i, room in enumerate(maze.rooms)}
+        beyond = [[_beyond(maze, room, vector) for vector in GRID.displacements] for room in maze.rooms]
+        self._target = np.array([[number[room] for room in row] for row in beyond], dtype=np.int64)  # [R, K]
+        self._place = np.full(len(number), -1, dtype=np.int64)
+        self._map: CognitiveMap | None = None
+
+    def visited(self, map_: CognitiveMap) -> bool:
+        """Whether the map has a visited place for every room."""
+        places = self._places(map_)
+        return places is not None and bool(map_.visited[places].all())
+
+    def least(self, map_: CognitiveMap) -> float:
+        """The probability in B_s of the true transition that is believed least; 0 while a room has no place."""
+        places = self._places(map_)
+        if places is None:
+            return 0.0
+        actions = self._target.shape[1]
+        rows = (places[:, None] * actions + np.arange(actions)).ravel()
+        return float(map_.B_s.probability(places[self._target].ravel(), rows).min())
+
+    def learned(self, map_: CognitiveMap) -> bool:
+        """Whether every true transition is believed at `BELIEVED` or more."""
+        return self.least(map_) >= BELIEVED
+
+    def known(self, edges: Mapping[tuple[tuple[int, ...], int], tuple[int, ...]]) -> bool:
+        """Whether `edges`, {(place, action): place} relative to the start, hold every true transition."""
+        return all(
+            edges.get((name, action)) == self._names[target]
+            for name, row in zip(self._names, self._target.tolist(), strict=True)
+            for action, target in enumerate(row)
+        )
+
+    def _places(self, map_: CognitiveMap) -> np.ndarray[tuple[int], np.dtype[np.int64]] | None:
+        """`[R]` the place of each room, once every room has one."""
+        if self._map is not map_:
+            self._map, self._place[:] = map_, -1
+        for room in np.flatnonzero(self._place < 0).tolist():
+            place = map_.place_at(self._names[room])
+            if place is None:
+                return None
+            self._place[room] = place  # a place never loses its position
+        return self._place
+
+
+def _beyond(maze: Maze, room: Position, vector: tuple[int, ...]) -> Position:
+    ahead = (room[0] + vector[0], room[1] + vector[1])
+    return ahead if ahead in maze.sights else room
