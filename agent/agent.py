@@ -234,7 +234,7 @@ class Agent:
 
     def _choose(self) -> None:
         settings = self.settings
-        places, q = self.belief.message.by_place()
+        places, q = self.belief.message.by_place
         reach = cut_reach(
             self.map,
             places,

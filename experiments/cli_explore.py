@@ -11,36 +11,48 @@ if TYPE_CHECKING:
     from ..agent import Settings
 
 
+World = Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, or a maze text file.")]
+Agent = Annotated[str, typer.Option(metavar="NAME", help="cogmap, frontier or random.")]
+Runs = Annotated[
+    int | None, typer.Option(min=1, help="Walk so often, run i with seed S + i; without it, once and in detail.")
+]
+Seed = Annotated[int, typer.Option(min=0, help="S: of the start room and of the agent.")]
+LookAhead = Annotated[int, typer.Option(min=1, help="Steps that policies look ahead (cogmap only).")]
+MaxSteps = Annotated[int | None, typer.Option(min=1, help="Give up after so many; 50 a room + 50 unless given.")]
+Policies = Annotated[
+    str, typer.Option(metavar="NAME", help="map_guided, self_avoiding, l_shaped or exhaustive (cogmap only).")
+]
+Growth = Annotated[
+    str, typer.Option(metavar="NAME", help="predicted, observed, static; several with commas, or all (cogmap only).")
+]
+Engine = Annotated[str, typer.Option(metavar="NAME", help="Of the window: numpy or gtsam (cogmap only).")]
+Jobs = Annotated[int, typer.Option(min=1, help="Processes of a sweep.")]
+Json = Annotated[
+    Path | None, typer.Option(metavar="FILE", help="Write the runs as JSON; a list if there are several growths.")
+]
+Save = Annotated[
+    Path | None, typer.Option(metavar="FILE.npz", help="Save the agent (of a sweep, that of its first run).")
+]
+Out = Annotated[
+    Path | None,
+    typer.Option(metavar="PICTURE", help="Where the picture goes; without --runs it is WORLD.png unless given."),
+]
+
+
 def explore_command(
-    world: Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, or a maze text file.")],
-    agent: Annotated[str, typer.Option(metavar="NAME", help="cogmap, frontier or random.")] = "cogmap",
-    runs: Annotated[
-        int | None, typer.Option(min=1, help="Walk so often, run i with seed S + i; without it, once and in detail.")
-    ] = None,
-    seed: Annotated[int, typer.Option(min=0, help="S: of the start room and of the agent.")] = 0,
-    look_ahead: Annotated[int, typer.Option(min=1, help="Steps that policies look ahead (cogmap only).")] = 6,
-    max_steps: Annotated[
-        int | None, typer.Option(min=1, help="Give up after so many; 50 a room + 50 unless given.")
-    ] = None,
-    policies: Annotated[
-        str, typer.Option(metavar="NAME", help="map_guided, self_avoiding, l_shaped or exhaustive (cogmap only).")
-    ] = "map_guided",
-    growth: Annotated[
-        str,
-        typer.Option(metavar="NAME", help="predicted, observed, static; several with commas, or all (cogmap only)."),
-    ] = "predicted",
-    engine: Annotated[str, typer.Option(metavar="NAME", help="Of the window: numpy or gtsam (cogmap only).")] = "numpy",
-    jobs: Annotated[int, typer.Option(min=1, help="Processes of a sweep.")] = 1,
-    json: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write the runs as JSON; a list if there are several growths.")
-    ] = None,
-    save: Annotated[
-        Path | None, typer.Option(metavar="FILE.npz", help="Save the agent (of a sweep, that of its first run).")
-    ] = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(metavar="PICTURE", help="Where the picture goes; without --runs it is WORLD.png unless given."),
-    ] = None,
+    world: World,
+    agent: Agent = "cogmap",
+    runs: Runs = None,
+    seed: Seed = 0,
+    look_ahead: LookAhead = 6,
+    max_steps: MaxSteps = None,
+    policies: Policies = "map_guided",
+    growth: Growth = "predicted",
+    engine: Engine = "numpy",
+    jobs: Jobs = 1,
+    json: Json = None,
+    save: Save = None,
+    out: Out = None,
 ) -> None:
     """Explore a maze, until every room was visited and every transition is believed at 0.6 or more.
 

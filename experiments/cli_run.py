@@ -12,7 +12,8 @@ import typer
 from ..agent import Agent, Settings
 from ..worlds import Maze
 from .cli_progress import progress
-from .cli_show import console, show_sweeps, show_walk
+from .cli_show import show_walk
+from .cli_table import console, show_sweeps
 from .exploring import Walk, walk
 from .output import write_json, write_picture
 from .sweep import exploration, explore_many
@@ -102,7 +103,8 @@ def _keep(request: Request, results: list[dict[str, Any]], done: Walk | None) ->
         done.walker.save(request.save)
         written.append(("agent", request.save))
     if done is not None and request.picture is not None:
-        write_picture(request.picture, _figure(request, done))
+        with progress("drawing", 1):
+            write_picture(request.picture, _figure(request, done))
         written.append(("picture", request.picture))
     for what, path in written:
         console().print(f"{what} saved: {path}", markup=False, highlight=False, soft_wrap=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,8 @@ Ints = NDArray[np.int64]
 
 
 def _summed(values: Ints, mass: Floats) -> tuple[Ints, Floats]:
+    if len(values) == 1:
+        return values, mass
     distinct, inverse = np.unique(values, return_inverse=True)
     return distinct, np.bincount(inverse, weights=mass, minlength=len(distinct)).astype(np.float64)
 
@@ -23,7 +26,7 @@ def _ranked(values: Ints, mass: Floats) -> dict[int, float]:
     return dict(zip(distinct[order].tolist(), total[order].tolist(), strict=True))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Message:
     """A filtered joint Q(s, p) over the pairs that hold mass.
 
@@ -37,6 +40,7 @@ class Message:
     positions: Ints
     mass: Floats
 
+    @cached_property
     def by_place(self) -> tuple[Ints, Floats]:
         """The places that hold mass, in ascending order, and Q(s)."""
         return _summed(self.places, self.mass)
@@ -74,7 +78,7 @@ class FilterOptions:
     support: float = 1e-3
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Belief:
     """What the agent believes after one time step.
 
@@ -103,7 +107,7 @@ class Belief:
         """F = complexity - accuracy = -log evidence (eq. 3, at the exact posterior), in nats."""
         return self.complexity - self.accuracy
 
-    @property
+    @cached_property
     def places(self) -> dict[int, float]:
         """Q(s_t) of the places that hold mass, the most probable first."""
         return _ranked(self.message.places, self.message.mass)
@@ -134,9 +138,10 @@ class Belief:
     @property
     def place(self) -> int:
         """The most probable place."""
-        return next(iter(self.places))
+        places, mass = self.message.by_place
+        return int(places[mass.argmax()])
 
     @property
     def certainty(self) -> float:
         """Q of the most probable place."""
-        return float(self.message.by_place()[1].max())
+        return float(self.message.by_place[1].max())

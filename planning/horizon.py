@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,8 +67,8 @@ def cut_reach(
     collision = np.zeros((len(local), len(map_.motions)))
     collision[:-1] = B[here, here, :]
     collision[:, map_.motions.stay] = 0.0
-    transition_information = np.zeros((len(local), len(map_.motions), steps + 1))
-    transition_information[:-1] = _information(alpha, steps)
+    transition_information = np.zeros((len(local), steps + 1))
+    transition_information[:-1] = _information(alpha, steps).sum(axis=1)
     position_information = np.zeros((len(local), steps + 1))
     position_information[:-1] = _information(map_.A_p.concentration(within)[1], steps)
     return Reach(
@@ -189,11 +190,20 @@ def _sight_information(map_: CognitiveMap, places: Ints, steps: int) -> Floats:
 
 
 def _information(alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:
-    """`dirichlet_information` of `[..., O]` concentrations; rows that are alike are computed once."""
-    rows = alpha.reshape(-1, alpha.shape[-1])
+    """`dirichlet_information` of `[..., O]` concentrations; rows met before are looked up."""
+    outcomes = alpha.shape[-1]
+    rows = alpha.reshape(-1, outcomes)
     many = np.ones_like(rows) if multiplicity is None else multiplicity.reshape(rows.shape)
-    seen: dict[bytes, int] = {}
-    inverse = [seen.setdefault(a.tobytes() + m.tobytes(), len(seen)) for a, m in zip(rows, many, strict=True)]
-    first = [inverse.index(i) for i in range(len(seen))]
-    table = dirichlet_information(rows[first], steps, multiplicity=many[first])
-    return table[inverse].reshape(*alpha.shape[:-1], steps + 1)
+    packed = np.hstack([rows, many]).tobytes()
+    width = 16 * outcomes
+    table = [_row_information(packed[i : i + width], steps) for i in range(0, len(packed), width)]
+    return np.array(table).reshape(*alpha.shape[:-1], steps + 1)
+
+
+@lru_cache(maxsize=1 << 14)
+def _row_information(packed: bytes, steps: int) -> Floats:
+    """One row: its concentrations, then their multiplicities."""
+    alpha, many = np.frombuffer(packed).reshape(2, -1)
+    if (many[alpha > 0.0]).sum() <= 1.0:  # one outcome teaches nothing
+        return np.zeros(steps + 1)
+    return dirichlet_information(alpha, steps, multiplicity=many)

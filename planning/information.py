@@ -73,25 +73,14 @@ def expected_gain(table: Floats, before: ArrayLike, visits: ArrayLike) -> Floats
     return interpolated(table, before + np.asarray(visits)) - interpolated(table, before)
 
 
-def interpolated(table: Floats, visits: Floats, rows: NDArray[np.int64] | None = None) -> Floats:
-    """I(visits), linear between integers, constant beyond N.
-
-    Args:
-        table: `[R, N + 1]` information of 0..N visits.
-        visits: `[..., R]`, or any shape where `rows` is given.
-        rows: the row of `table` for each of `visits`; by default the last axis counts them.
-
-    Returns:
-        Nats, of the shape of `visits`.
-    """
+def interpolated(table: Floats, visits: Floats) -> Floats:
+    """I(visits): `table[r]` read at `visits[..., r]`, linear between integers, constant beyond N."""
     last = table.shape[1] - 1
-    if rows is None:
-        rows = np.arange(len(table))
     if last == 0:
-        return table[:, 0][np.broadcast_to(rows, visits.shape)]
+        return np.broadcast_to(table[:, 0], visits.shape)
     bounded = np.minimum(visits, last)
     low = np.minimum(bounded.astype(np.int64), last - 1)
-    at = rows * (last + 1) + low
+    at = np.arange(len(table)) * (last + 1) + low
     flat = table.ravel()
     base = flat.take(at)
     return base + (bounded - low) * (flat.take(at + 1) - base)

@@ -36,7 +36,8 @@ class Reach:
         sight_information: `[R, N + 1]` what `n` sights of a place teach about its column of A_o, in
             nats; column 0 is zero; `N` is at least the length of the longest policy.
         position_information: `[R, N + 1]` the same for A_p.
-        transition_information: `[R, K, N + 1]` what `n` attempts of `(s, a)` teach about `B[:, s, a]`.
+        transition_information: `[R, N + 1]` the same for B_s: what looking at the doors of a place `n` times
+            teaches about `B[:, s, a]`, summed over the actions.
         successor: `[R, K]` the place each action most probably leads to on the map; `-1` where the
             map says blocked or knows nothing beyond.
         promise: `[R]` what a first visit is worth, in nats (for generators that look for goals).
@@ -98,7 +99,7 @@ class Reach:
             "promise": (R,),
             "sight_information": (R, self.sight_information.shape[-1]),
             "position_information": (R, self.position_information.shape[-1]),
-            "transition_information": (R, K, self.transition_information.shape[-1]),
+            "transition_information": (R, self.transition_information.shape[-1]),
         }
         for name, shape in shapes.items():
             found = getattr(self, name).shape

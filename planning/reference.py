@@ -30,7 +30,6 @@ def _terms(reach: Reach, policy: Sequence[int]) -> list[float]:
     total = [0.0] * TERMS
     belief: list[float] = reach.belief.tolist()
     visits = [0.0 for _ in places]
-    attempts = [[0.0 for _ in range(len(reach.motions))] for _ in places]
     for step, action in enumerate(policy):
         weight = reach.discount**step
         before, belief = belief, predicted_places(reach, belief, action)
@@ -38,9 +37,8 @@ def _terms(reach: Reach, policy: Sequence[int]) -> list[float]:
         for s in places:
             total[1] += weight * gain(reach.sight_information[s].tolist(), visits[s], belief[s])
             total[2] += weight * gain(reach.position_information[s].tolist(), visits[s], belief[s])
-            total[3] += weight * gain(reach.transition_information[s, action].tolist(), attempts[s][action], before[s])
+            total[3] += weight * gain(reach.transition_information[s].tolist(), visits[s], belief[s])
             visits[s] += belief[s]
-            attempts[s][action] += before[s]
         sights = enumerate(predicted_sights(reach, belief))
         total[4] += weight * sum(mass * float(reach.log_C[o]) for o, mass in sights)
         risk = sum(before[s] * float(reach.collision[s, action]) for s in places)

@@ -25,7 +25,7 @@ class ExpectedFreeEnergy:
         state_information: what the sights would tell about the place (eq. 5, eq. 8 inference).
         sight_information: what they would teach about A_o (eq. 8 learning).
         position_information: what the positions would teach about A_p (eq. 8 learning).
-        transition_information: what the moves would teach about B_s (eq. 8 learning).
+        transition_information: what their doors would teach about B_s (eq. 8 learning).
         utility: expected log preference of the sights (eq. 5).
         collision: expected risk of collision (eq. 8).
     """
@@ -61,18 +61,16 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
     """Expected free energy of each policy a_1..a_L from Q_0 = `reach.belief` (eqs. 4, 5 and 8).
 
     Q_t(s') = sum_s B[s', s, a_t] Q_{t-1}(s), predicted sights P_t = A Q_t, and with
-    m_s = sum_{t'<t} Q_t'(s) visits and n_sa = sum_{t'<t, a_t'=a} Q_{t'-1}(s) attempts before step t,
-    and each step t weighted by discount^(t-1),
+    m_s = sum_{t'<t} Q_t'(s) visits before step t, and each step t weighted by discount^(t-1),
 
         state information       sum_t H[P_t] - sum_s Q_t(s) H[A[:, s]]
         sight information       sum_t sum_s I_s(m_s + Q_t(s)) - I_s(m_s), I from `sight_information`
         position information    the same, I from `position_information`
-        transition information  sum_t sum_s J_sa(n_sa + Q_{t-1}(s)) - J_sa(n_sa), a = a_t,
-                                J from `transition_information`
+        transition information  the same, I from `transition_information`
         utility                 sum_t sum_o P_t(o) log_C[o]
         collision               collision_cost sum_t sum_s Q_{t-1}(s) collision[s, a_t]
 
-    Entropies are over all sights: a row of mass m and multiplicity k adds -m ln(m / k). I and J are
+    Entropies are over all sights: a row of mass m and multiplicity k adds -m ln(m / k). I is
     linear between integers and constant beyond their table, so nothing is collected twice in a rollout.
     Beliefs and gains are rolled forward once for each prefix that policies share.
     `reference.evaluate_plain` is the same, line by line.
@@ -100,9 +98,7 @@ class _Tables:
     ambiguity: Floats  # [R] H[A[:, s]], without the multiplicity, which cancels in the state information
     utility: Floats  # [R] expected log preference
     risk: Floats  # [K, R] expected cost of collision
-    sight: Floats  # [R, N + 1]
-    position: Floats  # [R, N + 1]
-    transition: Floats  # [K, R, N + 1]
+    information: tuple[Floats, ...]  # of A_o, A_p, B_s, each [R, N + 1]
     discount: float
 
     @classmethod
@@ -115,9 +111,7 @@ class _Tables:
             ambiguity=_entropy(A),
             utility=A @ reach.log_C,
             risk=np.ascontiguousarray(reach.collision_cost * reach.collision.T),
-            sight=reach.sight_information,
-            position=reach.position_information,
-            transition=np.ascontiguousarray(reach.transition_information.transpose(1, 0, 2)),
+            information=(reach.sight_information, reach.position_information, reach.transition_information),
             discount=reach.discount,
         )
 
@@ -128,13 +122,13 @@ class _Level:
 
     belief: Floats  # [n, R] Q_t
     visits: Floats  # [n, R] expected visits so far
-    attempts: Floats  # [n, K, R] expected attempts so far
+    learned: Floats  # [3, n] information about A_o, A_p and B_s collected by them
 
 
 def _evaluate(tables: _Tables, actions: Ints) -> Floats:
     """`[6, P]` the terms of each policy."""
     kinds, places = tables.B.shape[:2]
-    level = _Level(tables.belief[None], np.zeros((1, places)), np.zeros((1, kinds, places)))
+    level = _Level(tables.belief[None], np.zeros((1, places)), np.zeros((3, 1)))
     node = np.zeros(len(actions), dtype=np.int64)
     total = np.zeros((6, len(actions)))
     weight = 1.0
@@ -153,35 +147,26 @@ def _evaluate(tables: _Tables, actions: Ints) -> Floats:
 
 def _descend(tables: _Tables, level: _Level, parent: Ints, action: Ints) -> tuple[_Level, Floats]:
     """The next level of the tree, and `[6, n]` what the step to each of its nodes adds to the terms."""
-    before, visited = level.belief[parent], level.visits[parent]
-    attempts = level.attempts[parent]
+    before = level.belief[parent]
     belief = np.empty_like(before)
     bounds = np.searchsorted(action, np.arange(len(tables.B) + 1)).tolist()
     for a, B in enumerate(tables.B):
         if bounds[a] < bounds[a + 1]:
             here = slice(bounds[a], bounds[a + 1])
             np.matmul(before[here], B, out=belief[here])
-    nodes = np.arange(len(action))
-    tried = attempts[nodes, action]
-    attempts[nodes, action] += before
-    rows = action[:, None] * before.shape[1] + np.arange(before.shape[1])
-    flat = tables.transition.reshape(-1, tables.transition.shape[-1])
-    gains = np.array(
-        [
-            _entropy(belief @ tables.A) - belief @ tables.ambiguity,
-            _gain(tables.sight, visited, belief),
-            _gain(tables.position, visited, belief),
-            _gain(flat, tried, before, rows),
-            belief @ tables.utility,
-            np.einsum("ns,ns->n", before, tables.risk[action]),
-        ]
-    )
-    return _Level(belief, visited + belief, attempts), gains
+    visits = level.visits[parent] + belief
+    learned = np.array([_collected(table, visits) for table in tables.information])
+    gains = np.empty((6, len(action)))
+    gains[0] = _entropy(belief @ tables.A) - belief @ tables.ambiguity
+    gains[1:4] = learned - level.learned[:, parent]
+    gains[4] = belief @ tables.utility
+    gains[5] = np.einsum("ns,ns->n", before, tables.risk[action])
+    return _Level(belief, visits, learned), gains
 
 
-def _gain(table: Floats, before: Floats, more: Floats, rows: Ints | None = None) -> Floats:
-    """`[n]` sum over places of I(before + more) - I(before)."""
-    return (interpolated(table, before + more, rows) - interpolated(table, before, rows)).sum(axis=1)
+def _collected(table: Floats, visits: Floats) -> Floats:
+    """`[n]` sum over places of I(visits); a table of zeros is not looked up."""
+    return interpolated(table, visits).sum(axis=1) if table.any() else np.zeros(len(visits))
 
 
 def _entropy(mass: Floats) -> Floats:

@@ -49,7 +49,7 @@ def random_reach(
         collision_cost=float(rng.random() * 5),
         sight_information=dirichlet_information(rng.random((places, 4)) + 1e-3, steps),
         position_information=dirichlet_information(rng.random((places, 3)) + 1e-3, steps),
-        transition_information=dirichlet_information(rng.random((places, kinds, 3)) + 1e-3, steps),
+        transition_information=dirichlet_information(rng.random((places, kinds, 3)) + 1e-3, steps).sum(axis=1),
         successor=rng.integers(-1, places, (places, kinds)),
         promise=rng.random(places) * (rng.random(places) < 0.6),
         discount=float(rng.choice([1.0, 0.9])),

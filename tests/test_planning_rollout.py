@@ -96,7 +96,7 @@ def test_known_place_in_closed_form() -> None:
     B = np.zeros((2, 2, 3))
     B[0, :, 0] = B[1, :, 1] = 1.0
     B[[0, 1], [0, 1], 2] = 1.0
-    reach = replace(reach, B=B, A=np.eye(2), multiplicity=np.ones(2), belief=np.array([1.0, 0.0]))
+    reach = replace(reach, B=B, A=np.eye(2), multiplicity=np.ones(2), belief=np.array([1.0, 0.0]), discount=1.0)
     terms = evaluate(reach, Policies(np.array([[1, 2], [1, 0]])))
     I, J, C = reach.sight_information, reach.transition_information, reach.log_C  # noqa: E741
     np.testing.assert_allclose(terms.state_information, 0.0, atol=1e-12)

@@ -49,7 +49,8 @@ def explore_figure(
     grid = figure.add_gridspec(len(heights), across, height_ratios=heights)
     plot_maze(sights, path=path, title="path, from black to white", ax=figure.add_subplot(grid[0, 0]))
     if map_ is not None:
-        plot_map(map_, title="map learned", ax=figure.add_subplot(grid[0, 1]))
+        name = "map learned" if map_.visited.all() else "map learned (hollow: imagined)"
+        plot_map(map_, title=name, ax=figure.add_subplot(grid[0, 1]))
     if trace:
         plot_free_energy(trace, title="free energy and certainty", ax=figure.add_subplot(grid[1, 0]))
     if trace and map_ is not None:

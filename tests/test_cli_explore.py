@@ -1,0 +1,204 @@
+from __future__ import annotations
+
+import inspect
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from cogmap.agent import Agent, Settings
+from cogmap.experiments.cli import app
+from cogmap.experiments.cli_explore import explore_command
+from cogmap.experiments.cli_spark import sparkline
+from cogmap.worlds import format_maze, hall
+from typer.testing import CliRunner
+
+COMMAND = [sys.executable, "-c", "from cogmap.experiments.cli import main; main()"]
+
+
+def cogmap(*args: object) -> Any:
+    result: Any = CliRunner().invoke(app, [str(arg) for arg in args])
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return result
+
+
+@pytest.fixture(autouse=True)
+def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+
+
+def test_one_walk_is_shown_and_drawn() -> None:
+    result = cogmap("explore", "3x3", "--seed", 2)
+    assert result.exit_code == 0
+    for part in ("path from", "complete after", "9 places (9 visited)", "free energy F", "picture saved: 3x3.png"):
+        assert part in result.stdout
+    assert Path("3x3.png").read_bytes().startswith(b"\x89PNG")
+    assert max(map(len, result.stdout.splitlines())) <= 80
+
+
+def test_one_room() -> None:
+    Path("one.txt").write_text("7\n")
+    result = cogmap("explore", "one.txt", "--json", "one.json", "--out", "one.svg")
+    assert result.exit_code == 0
+    assert json.loads(Path("one.json").read_text())["runs"][0]["steps_to_complete"] == 0
+    assert "<svg" in Path("one.svg").read_text()
+
+
+def test_labels_are_not_markup() -> None:
+    Path("words.txt").write_text("[red] [/red]\n日本 b\n")
+    result = cogmap("explore", "words.txt")
+    assert result.exit_code == 0
+    assert "[/red]" in result.stdout
+    assert result.stderr == ""
+
+
+def test_a_walk_that_does_not_complete_says_so() -> None:
+    result = cogmap("explore", "3x3", "--max-steps", 2)
+    assert result.exit_code == 1
+    assert "Not complete after 2 steps" in result.stdout
+    sweep = cogmap("explore", "3x3", "--max-steps", 2, "--runs", 2, "--json", "x.json")
+    assert sweep.exit_code == 0
+    assert "not complete with seeds 0, 1" in sweep.stdout
+    saved = json.loads(Path("x.json").read_text())
+    assert saved["summary"]["completed"] == 0
+    assert saved["runs"][0]["steps_to_complete"] is None
+
+
+def test_a_sweep_writes_runs_agent_and_picture() -> None:
+    result = cogmap("explore", "3x3", "--runs", 2, "--seed", 8, "--json", "r.json", "--save", "m.npz", "--out", "p.png")
+    assert result.exit_code == 0
+    saved = json.loads(Path("r.json").read_text())
+    assert [run["seed"] for run in saved["runs"]] == [8, 9]
+    assert Settings.from_dict(saved["settings"]) == Settings()
+    assert Agent.load("m.npz").steps == saved["runs"][0]["steps_to_complete"] + 1
+    assert sorted(os.listdir()) == ["m.npz", "p.png", "r.json"]
+
+
+def test_a_sweep_draws_nothing_unless_asked() -> None:
+    assert cogmap("explore", "3x3", "--runs", 1, "--agent", "frontier").exit_code == 0
+    assert os.listdir() == []
+
+
+@pytest.mark.parametrize("growth", ["all", "static, observed,predicted"])
+def test_growths_are_compared(growth: str) -> None:
+    result = cogmap("explore", "t_maze", "--runs", 1, "--growth", growth, "--json", "g.json")
+    assert result.exit_code == 0
+    saved = json.loads(Path("g.json").read_text())
+    assert [part["settings"]["growth"] for part in saved] == ["static", "observed", "predicted"]
+    assert all(name in result.stdout for name in ("static", "observed", "predicted"))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["nowhere"], "no world 'nowhere'"),
+        (["ragged.txt"], "line 2 has 1 labels"),
+        (["empty.txt"], "is empty"),
+        (["binary.txt"], "is not text"),
+        ([], "Missing argument"),
+        (["3x3", "4x4"], "unexpected extra argument"),
+        (["3x3", "--agent", "genius"], "no agent is called 'genius'"),
+        (["3x3", "--policies", "x"], "policies is 'x'"),
+        (["3x3", "--growth", "x"], "growth is 'x'"),
+        (["3x3", "--growth", "static,"], "growth is ''"),
+        (["3x3", "--engine", "x"], "engine is 'x'"),
+        (["3x3", "--look-ahead", "0"], "--look-ahead"),
+        (["3x3", "--runs", "0"], "--runs"),
+        (["3x3", "--jobs", "0"], "--jobs"),
+        (["3x3", "--max-steps", "0"], "--max-steps"),
+        (["3x3", "--seed", "-1"], "--seed"),
+        (["3x3", "--runs", "two"], "--runs"),
+        (["3x3", "--fast"], "--fast"),
+        (["3x3", "--json", "no/x.json"], "cannot write no/x.json"),
+        (["3x3", "--json", "."], "cannot write ."),
+        (["3x3", "--out", "no/x.png"], "cannot write no/x.png"),
+        (["3x3", "--out", "x.bmp"], "no picture suffix"),
+        (["3x3", "--save", "no/x.npz"], "cannot write no/x.npz"),
+        (["3x3", "--json", "a.png", "--out", "a.png"], "two outputs"),
+        (["3x3", "--agent", "random", "--save", "m.npz"], "no map to save"),
+        (["3x3", "--agent", "random", "--growth", "all"], "does not grow"),
+        (["3x3", "--growth", "all", "--save", "m.npz"], "keep one walk"),
+        (["3x3", "--policies", "exhaustive", "--look-ahead", "12"], "look less far ahead"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(options: list[str], message: str) -> None:
+    Path("ragged.txt").write_text("0 1\n2\n")
+    Path("empty.txt").write_text("")
+    Path("binary.txt").write_bytes(b"\x00\xff\xfe")
+    before = sorted(os.listdir())
+    result = cogmap("explore", *options)
+    assert result.exit_code == 2
+    assert message in result.stderr
+    assert result.stderr.startswith("cogmap: ")
+    assert result.stderr.count("\n") == 1
+    assert result.stdout == ""
+    assert sorted(os.listdir()) == before
+
+
+def test_outputs_are_checked_before_walking(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Agent, "step", lambda *_: pytest.fail("it walked"))
+    assert cogmap("explore", "3x3", "--json", "no/x.json").exit_code == 2
+    assert cogmap("explore", "3x3", "--runs", 3, "--save", "no/x.npz").exit_code == 2
+
+
+def test_our_mistakes_are_not_hidden(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object) -> None:
+        raise ValueError("a bug")
+
+    monkeypatch.setattr(Agent, "step", broken)
+    assert isinstance(CliRunner().invoke(app, ["explore", "3x3"]).exception, ValueError)
+
+
+def test_an_interrupt_is_one_line_and_exit_code_130(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Agent, "step", interrupt)
+    result = cogmap("explore", "3x3", "--json", "x.json")
+    assert result.exit_code == 130
+    assert result.stderr.strip() == "cogmap: interrupted; nothing more was written"
+    assert os.listdir() == []
+
+
+def test_ctrl_c_ends_the_workers_too() -> None:
+    Path("hall.txt").write_text(format_maze(hall(12, 12, sights=None)))
+    command = [*COMMAND, "explore", "hall.txt", "--runs", "50", "--jobs", "2"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    time.sleep(2.5)
+    os.killpg(process.pid, signal.SIGINT)
+    _, errors = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert errors == "cogmap: interrupted; nothing more was written\n"
+
+
+def test_the_real_command() -> None:
+    run = subprocess.run([*COMMAND, "explore", "3x3", "--runs", "2"], capture_output=True, text=True, check=True)
+    assert "2/2" in run.stdout
+    bad = subprocess.run([*COMMAND, "explore", "3x3", "--runs", "0"], capture_output=True, text=True, check=False)
+    assert (bad.returncode, bad.stderr.count("\n")) == (2, 1)
+
+
+def test_a_terminal_without_unicode() -> None:
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    command = [*COMMAND, "explore", "3x3", "--agent", "frontier"]
+    run = subprocess.run(command, capture_output=True, check=True, env=environment)
+    assert run.stdout.isascii()
+
+
+def test_the_defaults_are_those_of_the_settings() -> None:
+    signature = inspect.signature(explore_command)
+    for name in ("look_ahead", "policies", "growth", "engine"):
+        assert signature.parameters[name].default == getattr(Settings(), name)
+
+
+def test_sparkline() -> None:
+    assert sparkline([0.0, 1.0, 2.0, 7.0]) == "▁▂▃█"
+    assert sparkline([3.0, 3.0]) == "▅▅"
+    assert len(sparkline(list(range(1000)), width=20)) == 20
+    assert sparkline([0.0, 1.0], unicode=False).isascii()
