@@ -59,7 +59,7 @@ class Settings:
     engine: str = "numpy"
     filter: FilterOptions = field(default_factory=FilterOptions)
     priors: Priors = field(default_factory=Priors)
-    discount: float = 1.0
+    discount: float = 0.95
     goal_weight: float = 1.0
     collision_cost: float = 1.0
 

@@ -86,6 +86,25 @@ def interpolated(table: Floats, visits: Floats) -> Floats:
     return base + (bounded - low) * (flat.take(at + 1) - base)
 
 
+def total_information(table: Floats, visits: Floats) -> Floats:
+    """`[n]` sum over places of I(visits), from `table [R, N + 1]` and `visits [n, R]`.
+
+    I is linear up to one visit, which most places in a rollout do not exceed; only the others are looked up.
+    """
+    if table.shape[1] == 1 or not table.any():
+        return table[:, 0].sum() + np.zeros(len(visits))
+    first = table[:, 1] - table[:, 0]
+    total = visits @ first + table[:, 0].sum()
+    node, place = np.nonzero(visits > 1.0)
+    many = visits[node, place]
+    last = table.shape[1] - 1
+    bounded = np.minimum(many, last)
+    low = np.minimum(bounded.astype(np.int64), last - 1)
+    base = table[place, low]
+    exact = base + (bounded - low) * (table[place, low + 1] - base)
+    return total + np.bincount(node, exact - table[place, 0] - many * first[place], minlength=len(visits))
+
+
 def _checked(alpha: ArrayLike, multiplicity: ArrayLike | None, steps: int) -> tuple[Floats, Floats]:
     alpha = np.asarray(alpha, dtype=np.float64)
     weight = np.ones(1) if multiplicity is None else np.asarray(multiplicity, dtype=np.float64)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
-from .information import interpolated
+from .information import total_information
 from .policies.base import Policies
 from .reach import Reach
 
@@ -155,18 +155,13 @@ def _descend(tables: _Tables, level: _Level, parent: Ints, action: Ints) -> tupl
             here = slice(bounds[a], bounds[a + 1])
             np.matmul(before[here], B, out=belief[here])
     visits = level.visits[parent] + belief
-    learned = np.array([_collected(table, visits) for table in tables.information])
+    learned = np.array([total_information(table, visits) for table in tables.information])
     gains = np.empty((6, len(action)))
     gains[0] = _entropy(belief @ tables.A) - belief @ tables.ambiguity
     gains[1:4] = learned - level.learned[:, parent]
     gains[4] = belief @ tables.utility
     gains[5] = np.einsum("ns,ns->n", before, tables.risk[action])
     return _Level(belief, visits, learned), gains
-
-
-def _collected(table: Floats, visits: Floats) -> Floats:
-    """`[n]` sum over places of I(visits); a table of zeros is not looked up."""
-    return interpolated(table, visits).sum(axis=1) if table.any() else np.zeros(len(visits))
 
 
 def _entropy(mass: Floats) -> Floats:

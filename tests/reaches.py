@@ -104,7 +104,7 @@ def grid_reach(
         collision_cost=1.0,
         sight_information=sight,
         position_information=np.zeros((R, look + 1)),
-        transition_information=dirichlet_information(np.full((R, K, 2), [5.0, 0.1]), look),
+        transition_information=dirichlet_information(np.full((R, K, 2), [5.0, 0.1]), look).sum(axis=1),
         successor=successor,
         promise=sight[:, 1] + np.array([3.0 if room == goal else 0.0 for room in rooms]),
     )
