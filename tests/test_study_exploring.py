@@ -1,0 +1,73 @@
+"""Does the agent explore as well as it should? Small by default; `pytest -m study --study` for the full size."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from cogmap.agent import Settings
+from cogmap.experiments import explore
+from cogmap.worlds import MAZES, Maze, comb, hall, random_maze, rings, spiral
+
+pytestmark = pytest.mark.study
+
+# mean steps to complete over 20 starts, the paper's agent's is far above in most
+TARGETS = {
+    "3x3": 9.5,
+    "3x3_alias": 9.5,
+    "4x4": 17.0,
+    "4x4_alias": 17.0,
+    "t_maze": 11.3,
+    "t_maze_alias": 11.3,
+    "donut": 13.2,
+    "tolman": 27.0,
+}
+
+
+def drawn(seed: int) -> np.random.Generator:
+    return np.random.default_rng(seed)
+
+
+UNKNOWN: dict[str, Maze] = {
+    "comb": comb(5, 3),
+    "comb_alias": comb(6, 2, sights=3, rng=drawn(1)),
+    "deep_comb": comb(3, 7, sights=3, rng=drawn(2)),
+    "spiral": spiral(7),
+    "spiral_alias": spiral(6, sights=3, rng=drawn(3)),
+    "rings": rings(3, 3),
+    "rings_alias": rings(2, 5, sights=3, rng=drawn(4)),
+    "hall_4x4": hall(4, 4, sights=3, rng=drawn(5)),
+    "hall_5x5": hall(5, 5, sights=3, rng=drawn(6)),
+    "hall_5x6": hall(5, 6, sights=3, rng=drawn(7)),
+    "hall_3x10": hall(3, 10, sights=3, rng=drawn(8)),
+    "random": random_maze(26, sights=3, rng=drawn(9)),
+}
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_mazes_of_the_paper_within_target(name: str, study: bool) -> None:
+    runs = [explore(MAZES[name], seed=seed) for seed in range(20)]
+    steps = [run.steps_to_complete for run in runs]
+    assert None not in steps
+    assert np.mean(np.array(steps, dtype=float)) <= TARGETS[name]
+
+
+@pytest.mark.parametrize("name", UNKNOWN)
+def test_mazes_never_seen_before_within_a_quarter_of_the_oracle(name: str, study: bool) -> None:
+    runs = [explore(UNKNOWN[name], seed=seed) for seed in range(20 if study else 5)]
+    steps = [run.steps_to_complete for run in runs]
+    assert None not in steps
+    oracle = [run.oracle_steps or run.frontier_steps for run in runs]
+    # five starts scatter more than twenty: a walk down the wrong half of a spiral costs it twice over
+    limit = 1.25 if study else 1.4
+    assert np.mean(np.array(steps, dtype=float)) <= limit * np.mean(np.array(oracle, dtype=float))
+
+
+@pytest.mark.parametrize("name", ["3x3_alias", "4x4", "donut", "tolman"])
+def test_predicted_growth_needs_the_fewest_steps(name: str, study: bool) -> None:
+    def mean(growth: str) -> float:
+        runs = [explore(MAZES[name], settings=Settings(growth=growth), seed=s) for s in range(20 if study else 4)]
+        return float(np.mean([run.steps_to_complete or np.inf for run in runs]))
+
+    predicted = mean("predicted")
+    assert predicted < mean("observed")
+    assert predicted < mean("static")
