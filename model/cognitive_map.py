@@ -37,15 +37,15 @@ class Priors:
         sight: of each sight in a column of A_o. Small: a room has one sight, it is only unknown which; after
             one look the probability of another sight is about this, so that one contradiction is telling.
         position: of a place's own position in A_p; every other position has none.
-        transition: of each way a door can turn out (blocked, or the place beyond) in B_s; half a count each is the
-            reference prior of a choice between two (Jeffreys).
+        transition: of each way a door can turn out (blocked, or the place beyond) in B_s. Well below one, since a
+            door is either open or not; how far below matters little (docs/decisions).
         door_floor: a door is never believed open or blocked beyond `1 - door_floor`.
         transition_ceiling: evidence for one transition never exceeds this, so that a change is believed soon.
     """
 
     sight: float = 1e-9
     position: float = 1.0
-    transition: float = 0.5
+    transition: float = 0.1
     door_floor: float = 0.01
     transition_ceiling: float = 1e6
 

@@ -116,9 +116,13 @@ class SparseDirichlet:
         return keys, alpha, np.maximum(self.outcomes - used.sum(axis=1), 0).astype(np.float64)
 
     def mean(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
-        """Expected probabilities of `rows`: keys and P `[n, slots]`, and P `[n]` of one outcome without a slot."""
+        """Expected probabilities of `rows`: keys and P `[n, slots]`, and P `[n]` of one outcome without a slot.
+
+        A row that has no counts at all gives zero to every outcome.
+        """
         keys, alpha, others = self.concentration(rows)
         total = alpha.sum(axis=1) + self.background * others
+        total = np.where(total > 0.0, total, 1.0)
         return keys, alpha / total[:, None], self.background / total
 
     def probability(self, key: int | Ints, rows: Ints) -> Floats:
@@ -140,9 +144,10 @@ class SparseDirichlet:
         return table
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Arrays that hold every count, for saving."""
+        """Copies of the arrays that hold every count, for saving."""
         rows = slice(self._rows)
-        return {"keys": self._keys[rows], "prior": self._prior[rows], "evidence": self._evidence[rows]}
+        parts = {"keys": self._keys, "prior": self._prior, "evidence": self._evidence}
+        return {name: part[rows].copy() for name, part in parts.items()}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Take over what `state` returned."""

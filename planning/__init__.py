@@ -1,7 +1,7 @@
 """What to do: policies, rollouts, expected free energy, choice."""
 
 from .choice import CHOICES, Plan, choose, plan, policy_posterior
-from .information import dirichlet_information, expected_gain
+from .information import collected_information, dirichlet_information
 from .policies import GENERATORS, Policies, exhaustive, l_shaped, map_guided, self_avoiding
 from .reach import Reach
 from .reference import evaluate_plain
@@ -15,11 +15,11 @@ __all__ = [
     "Policies",
     "Reach",
     "choose",
+    "collected_information",
     "dirichlet_information",
     "evaluate",
     "evaluate_plain",
     "exhaustive",
-    "expected_gain",
     "l_shaped",
     "map_guided",
     "plan",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -56,23 +58,6 @@ def dirichlet_information(alpha: ArrayLike, steps: int, *, multiplicity: ArrayLi
     return np.cumsum(information, axis=-1)
 
 
-def expected_gain(table: Floats, before: ArrayLike, visits: ArrayLike) -> Floats:
-    """I(before + visits) - I(before), what more visits teach after those already counted.
-
-    Differences telescope along a policy, so no information is collected twice.
-
-    Args:
-        table: `[R, N + 1]` information of 0..N visits; linear in between, constant beyond N.
-        before: `[..., R]` expected visits so far.
-        visits: `[..., R]` expected visits to add.
-
-    Returns:
-        `[..., R]` nats.
-    """
-    before = np.asarray(before, dtype=np.float64)
-    return interpolated(table, before + np.asarray(visits)) - interpolated(table, before)
-
-
 def interpolated(table: Floats, visits: Floats) -> Floats:
     """I(visits): `table[r]` read at `visits[..., r]`, linear between integers, constant beyond N."""
     last = table.shape[1] - 1
@@ -86,23 +71,20 @@ def interpolated(table: Floats, visits: Floats) -> Floats:
     return base + (bounded - low) * (flat.take(at + 1) - base)
 
 
-def total_information(table: Floats, visits: Floats) -> Floats:
-    """`[n]` sum over places of I(visits), from `table [R, N + 1]` and `visits [n, R]`.
+def collected_information(tables: Sequence[Floats], visits: Floats, reached: Floats) -> Floats:
+    """What expected visits teach: probability of any visit, times I of the visits there are then.
 
-    I is linear up to one visit, which most places in a rollout do not exceed; only the others are looked up.
+    Args:
+        tables: `T` tables `[R, N + 1]` of information from 0..N visits, zero in column 0.
+        visits: `[n, R]` expected visits.
+        reached: `[n, R]` probability of any visit, at most `visits`.
+
+    Returns:
+        `[T, n]` nats, summed over places: sum_s reached I_s(visits / reached).
     """
-    if table.shape[1] == 1 or not table.any():
-        return table[:, 0].sum() + np.zeros(len(visits))
-    first = table[:, 1] - table[:, 0]
-    total = visits @ first + table[:, 0].sum()
-    node, place = np.nonzero(visits > 1.0)
-    many = visits[node, place]
-    last = table.shape[1] - 1
-    bounded = np.minimum(many, last)
-    low = np.minimum(bounded.astype(np.int64), last - 1)
-    base = table[place, low]
-    exact = base + (bounded - low) * (table[place, low + 1] - base)
-    return total + np.bincount(node, exact - table[place, 0] - many * first[place], minlength=len(visits))
+    many = np.divide(visits, reached, out=np.zeros_like(visits), where=reached > 0.0)
+    rows = [reached * interpolated(table, many) if table.any() else None for table in tables]
+    return np.array([np.zeros(len(visits)) if row is None else row.sum(axis=1) for row in rows])
 
 
 def _checked(alpha: ArrayLike, multiplicity: ArrayLike | None, steps: int) -> tuple[Floats, Floats]:

@@ -30,15 +30,19 @@ def _terms(reach: Reach, policy: Sequence[int]) -> list[float]:
     total = [0.0] * TERMS
     belief: list[float] = reach.belief.tolist()
     visits = [0.0 for _ in places]
+    reached = [0.0 for _ in places]
+    tables = [reach.sight_information, reach.position_information, reach.transition_information]
     for step, action in enumerate(policy):
         weight = reach.discount**step
         before, belief = belief, predicted_places(reach, belief, action)
-        total[0] += weight * state_information(reach, belief)
+        if action != reach.motions.stay:
+            total[0] += weight * state_information(reach, belief)
         for s in places:
-            total[1] += weight * gain(reach.sight_information[s].tolist(), visits[s], belief[s])
-            total[2] += weight * gain(reach.position_information[s].tolist(), visits[s], belief[s])
-            total[3] += weight * gain(reach.transition_information[s].tolist(), visits[s], belief[s])
-            visits[s] += belief[s]
+            more, likelier = visits[s] + belief[s], max(reached[s], belief[s])
+            for term, table in enumerate(tables, start=1):
+                row: list[float] = table[s].tolist()
+                total[term] += weight * (collected(row, more, likelier) - collected(row, visits[s], reached[s]))
+            visits[s], reached[s] = more, likelier
         sights = enumerate(predicted_sights(reach, belief))
         total[4] += weight * sum(mass * float(reach.log_C[o]) for o, mass in sights)
         risk = sum(before[s] * float(reach.collision[s, action]) for s in places)
@@ -69,9 +73,9 @@ def entropy(reach: Reach, sights: Sequence[float]) -> float:
     return -sum(mass * log(mass / k) for mass, k in zip(sights, counts, strict=True) if mass > 0.0)
 
 
-def gain(table: Sequence[float], before: float, more: float) -> float:
-    """I(before + more) - I(before)."""
-    return read(table, before + more) - read(table, before)
+def collected(table: Sequence[float], visits: float, reached: float) -> float:
+    """C = q I(v / q): what `visits` teach if there is any visit with probability `reached`."""
+    return reached * read(table, visits / reached) if reached > 0.0 else 0.0
 
 
 def read(table: Sequence[float], visits: float) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
-from .information import total_information
+from .information import collected_information
 from .policies.base import Policies
 from .reach import Reach
 
@@ -61,17 +61,20 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
     """Expected free energy of each policy a_1..a_L from Q_0 = `reach.belief` (eqs. 4, 5 and 8).
 
     Q_t(s') = sum_s B[s', s, a_t] Q_{t-1}(s), predicted sights P_t = A Q_t, and with
-    m_s = sum_{t'<t} Q_t'(s) visits before step t, and each step t weighted by discount^(t-1),
+    v_s(t) = sum_{t'<=t} Q_t'(s) expected visits, q_s(t) = max_{t'<=t} Q_t'(s) the probability of any visit (the
+    largest is a bound that is exact on the way to a place and while staying there), C_s = q_s I_s(v_s / q_s)
+    what they teach, and each step t weighted by discount^(t-1),
 
-        state information       sum_t H[P_t] - sum_s Q_t(s) H[A[:, s]]
-        sight information       sum_t sum_s I_s(m_s + Q_t(s)) - I_s(m_s), I from `sight_information`
+        state information       sum_t H[P_t] - sum_s Q_t(s) H[A[:, s]], over the steps that do not stay
+        sight information       sum_t sum_s C_s(t) - C_s(t-1), I from `sight_information`
         position information    the same, I from `position_information`
         transition information  the same, I from `transition_information`
         utility                 sum_t sum_o P_t(o) log_C[o]
         collision               collision_cost sum_t sum_s Q_{t-1}(s) collision[s, a_t]
 
-    Entropies are over all sights: a row of mass m and multiplicity k adds -m ln(m / k). I is
-    linear between integers and constant beyond their table, so nothing is collected twice in a rollout.
+    Entropies are over all sights: a row of mass m and multiplicity k adds -m ln(m / k). I is linear between
+    integers and constant beyond its table. C telescopes, so nothing is collected twice in a rollout; nor does
+    staying tell again what the first look at a place has told.
     Beliefs and gains are rolled forward once for each prefix that policies share.
     `reference.evaluate_plain` is the same, line by line.
 
@@ -100,6 +103,7 @@ class _Tables:
     risk: Floats  # [K, R] expected cost of collision
     information: tuple[Floats, ...]  # of A_o, A_p, B_s, each [R, N + 1]
     discount: float
+    stay: int
 
     @classmethod
     def of(cls, reach: Reach) -> _Tables:
@@ -113,6 +117,7 @@ class _Tables:
             risk=np.ascontiguousarray(reach.collision_cost * reach.collision.T),
             information=(reach.sight_information, reach.position_information, reach.transition_information),
             discount=reach.discount,
+            stay=reach.motions.stay,
         )
 
 
@@ -122,13 +127,15 @@ class _Level:
 
     belief: Floats  # [n, R] Q_t
     visits: Floats  # [n, R] expected visits so far
+    reached: Floats  # [n, R] probability of any visit so far
     learned: Floats  # [3, n] information about A_o, A_p and B_s collected by them
 
 
 def _evaluate(tables: _Tables, actions: Ints) -> Floats:
     """`[6, P]` the terms of each policy."""
     kinds, places = tables.B.shape[:2]
-    level = _Level(tables.belief[None], np.zeros((1, places)), np.zeros((3, 1)))
+    nothing = np.zeros((1, places))
+    level = _Level(tables.belief[None], nothing, nothing, np.zeros((3, 1)))
     node = np.zeros(len(actions), dtype=np.int64)
     total = np.zeros((6, len(actions)))
     weight = 1.0
@@ -155,13 +162,14 @@ def _descend(tables: _Tables, level: _Level, parent: Ints, action: Ints) -> tupl
             here = slice(bounds[a], bounds[a + 1])
             np.matmul(before[here], B, out=belief[here])
     visits = level.visits[parent] + belief
-    learned = np.array([total_information(table, visits) for table in tables.information])
+    reached = np.maximum(level.reached[parent], belief)
+    learned = collected_information(tables.information, visits, reached)
     gains = np.empty((6, len(action)))
-    gains[0] = _entropy(belief @ tables.A) - belief @ tables.ambiguity
+    gains[0] = (action != tables.stay) * (_entropy(belief @ tables.A) - belief @ tables.ambiguity)
     gains[1:4] = learned - level.learned[:, parent]
     gains[4] = belief @ tables.utility
     gains[5] = np.einsum("ns,ns->n", before, tables.risk[action])
-    return _Level(belief, visits, learned), gains
+    return _Level(belief, visits, reached, learned), gains
 
 
 def _entropy(mass: Floats) -> Floats:

@@ -7,8 +7,8 @@ from itertools import product
 import numpy as np
 import pytest
 from cogmap.model.errors import CogmapError
-from cogmap.planning import dirichlet_information, expected_gain
-from cogmap.planning.information import interpolated, total_information
+from cogmap.planning import collected_information, dirichlet_information
+from cogmap.planning.information import interpolated
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
@@ -110,17 +110,20 @@ def test_bad_input(alpha: list[float], steps: int, options: dict[str, list[float
 
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10**6))
-def test_gains_telescope_and_clamp(seed: int) -> None:
+def test_collected_information_is_what_is_expected_of_visits_that_come_or_do_not(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    table = dirichlet_information(rng.random((3, 4)) + 0.01, int(rng.integers(0, 5)))
-    visits = rng.random((6, 3)) * rng.choice([1.0, 3.0])
-    before = np.cumsum(visits, axis=0) - visits
-    gained = expected_gain(table, before, visits).sum(0)
-    np.testing.assert_allclose(gained, interpolated(table, visits.sum(0)), atol=1e-12)
-    np.testing.assert_allclose(total_information(table, visits), interpolated(table, visits).sum(1), atol=1e-12)
-    np.testing.assert_allclose(expected_gain(table, [50.0] * 3, [1.0] * 3), 0.0)
+    steps = int(rng.integers(1, 5))
+    tables = [dirichlet_information(rng.random((3, 4)) + 0.01, steps) for _ in range(2)]
+    q, many = rng.random((6, 3)), rng.integers(1, steps + 1, (6, 3))
+    collected = collected_information(tables, q * many, q)
+    for table, found in zip(tables, collected, strict=True):
+        direct = [sum(q[i, s] * table[s, many[i, s]] for s in range(3)) for i in range(6)]
+        np.testing.assert_allclose(found, direct, atol=1e-12)
 
 
-def test_gain_at_integers_and_between() -> None:
+def test_collected_information_between_integers_beyond_the_table_and_of_nothing() -> None:
     table = np.array([[0.0, 4.0, 6.0]])
-    np.testing.assert_allclose(expected_gain(table, [[0.0], [1.0], [0.5]], [[1.0], [1.0], [1.0]]).ravel(), [4, 2, 3])
+    visits = np.array([[1.0], [1.5], [50.0], [0.0]])
+    reached = np.array([[1.0], [1.0], [1.0], [0.0]])
+    np.testing.assert_allclose(collected_information([table], visits, reached)[0], [4, 5, 6, 0])
+    np.testing.assert_allclose(interpolated(table, np.array([[0.5]])), [[2.0]])

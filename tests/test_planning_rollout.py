@@ -111,7 +111,9 @@ def test_state_information_of_a_lost_agent_is_one_bit() -> None:
     reach = random_reach(0, motions=LINE, places=2, sights=2, look_ahead=1)
     still = np.repeat(np.eye(2)[:, :, None], 3, axis=2)
     reach = replace(reach, B=still, A=np.eye(2), multiplicity=np.ones(2), belief=np.array([0.5, 0.5]))
-    assert evaluate(reach, Policies(np.array([[2]]))).state_information[0] == pytest.approx(np.log(2))
+    terms = evaluate(reach, Policies(np.array([[1], [2]])))
+    assert terms.state_information[0] == pytest.approx(np.log(2))
+    assert terms.state_information[1] == 0.0  # to stay is to look again at what was seen
 
 
 def test_terms_add_up_and_explain_themselves() -> None:
