@@ -45,8 +45,8 @@ class Priors:
 
     sight: float = 1e-9
     position: float = 1.0
-    transition: float = 0.1
-    door_floor: float = 0.01
+    transition: float = 1e-4
+    door_floor: float = 1e-5
     transition_ceiling: float = 1e6
 
 
