@@ -17,7 +17,7 @@ from .rollout import ExpectedFreeEnergy, evaluate
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 CHOICES = ("best", "sampled")
-TIE = 1e-9  # nats; policies closer than this are equally good
+TIE = 1e-3  # nats; policies closer than this are equally good: their odds at a precision of 16 are 1.016 to 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +95,10 @@ def choose(
     how: str = "best",
     rng: np.random.Generator,
 ) -> Plan:
-    """The plan: "best" takes the least G (equals drawn evenly), "sampled" draws from P(policy).
+    """The plan: "best" takes the least G, "sampled" draws from P(policy).
+
+    Among policies as good as the best (within `TIE`) the one that moves least is taken, and among those that move as
+    little the draw is even.
 
     Raises:
         CogmapError: unknown `how`, terms of other policies, or what `policy_posterior` raises.
@@ -107,7 +110,9 @@ def choose(
     G = terms.G
     probability = policy_posterior(G, precision=precision)
     if how == "best":
-        chosen = int(rng.choice(np.flatnonzero(G - G.min() <= TIE)))
+        good = np.flatnonzero(G - G.min() <= TIE)
+        moves = (policies.actions[good] != reach.motions.stay).sum(axis=1)
+        chosen = int(rng.choice(good[moves == moves.min()]))
     else:
         chosen = int(rng.choice(len(G), p=probability))
     action = int(policies.actions[chosen, 0])

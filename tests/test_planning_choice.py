@@ -46,8 +46,10 @@ def test_posterior_bad_input(G: list[float], precision: float, message: str) -> 
         policy_posterior(G, precision=precision)
 
 
-def test_best_breaks_ties_evenly() -> None:
-    policies, terms = with_G([1.0, 0.0, 2.0, 1e-10, 1e-8])
+def test_best_breaks_ties_evenly_among_those_that_move_least() -> None:
+    _, terms = with_G([1.0, 0.0, 2.0, 1e-10, 0.0, 0.01])
+    # policies 1, 3 and 4 are as good as the best; 4 moves twice, the other two once
+    policies = Policies(np.array([[4, 4], [0, 4], [1, 4], [2, 4], [0, 0], [3, 4]]))
     rng = np.random.default_rng(0)
     reach = random_reach(0)
     chosen = [choose(reach, policies, terms, rng=rng).chosen for _ in range(400)]
