@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable
 from typing import Any, cast
 
@@ -14,6 +15,10 @@ def encode(label: Hashable) -> Any:
     Raises:
         CogmapError: the label is of another type.
     """
+    if isinstance(label, float) and not math.isfinite(label):
+        raise CogmapError(
+            f"save: cannot write label {label!r}, JSON has none such; label with a finite number or a str"
+        )
     if isinstance(label, tuple):
         return {"tuple": [encode(part) for part in cast(tuple[Hashable, ...], label)]}
     if label is None or isinstance(label, bool | int | float | str):

@@ -15,7 +15,7 @@ def perceive(observation: Mapping[str, Any], motions: Motions) -> tuple[Hashable
     """The sight, and for each action whether its way is open.
 
     Raises:
-        CogmapError: a key is missing, the sight is not hashable, or there is not one truth value an action.
+        CogmapError: a key is missing, the sight is not hashable or NaN, or there is not one truth value an action.
     """
     if not isinstance(observation, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance]
         kind = type(observation).__name__
@@ -35,6 +35,8 @@ def _label(sight: Any) -> Hashable:
         raise CogmapError(
             f"observation: sight is a {kind}, not hashable; label sights with str, int or tuple"
         ) from error
+    if label != label:  # a NaN would be a new sight each time
+        raise CogmapError("observation: sight is NaN, which equals nothing; label sights with str, int or tuple")
     return label
 
 
@@ -43,7 +45,12 @@ def _is_scalar_array(sight: Any) -> bool:
 
 
 def _doors(open_: Any, motions: Motions) -> tuple[bool, ...]:
-    doors = np.asarray(open_)
+    try:
+        doors = np.asarray(open_)
+    except ValueError as error:
+        raise CogmapError(
+            "observation: 'open' holds lists of different lengths; give one truth value an action"
+        ) from error
     if doors.shape != (len(motions),):
         names = ", ".join(motions.names)
         raise CogmapError(f"observation: 'open' has shape {doors.shape}; give one truth value an action: {names}")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inference.message import Belief, Message
+from ..model.errors import CogmapError
 from ..model.slices import Slice
 from .labels import decode, encode
 
@@ -29,10 +30,19 @@ def belief_state(belief: Belief | None) -> tuple[dict[str, Any] | None, Arrays]:
 
 
 def restore_belief(header: Mapping[str, Any] | None, arrays: Mapping[str, NDArray[Any]]) -> Belief | None:
-    """The belief that `belief_state` took apart."""
+    """The belief that `belief_state` took apart.
+
+    Raises:
+        CogmapError: the arrays do not fit one another.
+        KeyError: an array is missing.
+    """
     if header is None:
         return None
     parts = [arrays[f"belief.{i}"] for i in range(6)]
+    if any(part.ndim != 1 or part.dtype.kind != kind for part, kind in zip(parts, "iifiif", strict=True)):
+        raise CogmapError("belief: an array is no list of numbers of its kind; save the agent again")
+    if any(len({len(part) for part in parts[i : i + 3]}) > 1 for i in (0, 3)) or not abs(parts[2].sum() - 1) < 1e-6:
+        raise CogmapError("belief: the masses do not belong to its places and positions; save the agent again")
     return Belief(message=Message(*parts[:3]), walks=(parts[3], parts[4], parts[5]), **header)
 
 
@@ -53,7 +63,17 @@ def window_state(window: Sequence[Slice]) -> tuple[list[dict[str, Any]], Arrays]
 
 
 def restore_window(headers: Sequence[Mapping[str, Any]], arrays: Mapping[str, NDArray[Any]]) -> list[Slice]:
-    """The slices that `window_state` took apart."""
+    """The slices that `window_state` took apart.
+
+    Raises:
+        CogmapError: an array does not fit the places and positions of its slice.
+        KeyError: an array is missing.
+    """
+    for i in range(len(headers)):
+        n, m = (arrays[f"window.{i}.{name}"].shape for name in ("places", "positions"))
+        joint, arrival = (arrays[f"window.{i}.{name}"].shape for name in ("joint", "arrival"))
+        if len(n) != 1 or joint != (*n, *m) or arrival != n:
+            raise CogmapError(f"window: slice {i} does not fit its places and positions; save the agent again")
     names = [field.name for field in fields(Slice)]
     return [
         Slice(

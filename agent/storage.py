@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import struct
 import tempfile
 import zipfile
 import zlib
@@ -29,11 +30,11 @@ def save(agent: Agent, path: str | PathLike[str]) -> None:
     """Write the agent; the file is replaced whole, or not at all.
 
     Raises:
-        CogmapError: a label cannot be written, or the folder cannot be.
+        CogmapError: a label or a setting cannot be written, or the folder cannot be.
     """
     header, arrays = agent.state()
     header = {"format": FORMAT, "schema": SCHEMA, **header}
-    packed = np.frombuffer(json.dumps(header, allow_nan=False).encode(), dtype=np.uint8)
+    packed = np.frombuffer(_json(header).encode(), dtype=np.uint8)
     target = Path(path)
     try:
         handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part")
@@ -46,8 +47,10 @@ def save(agent: Agent, path: str | PathLike[str]) -> None:
             np.savez(file, header=packed, **arrays)  # pyright: ignore[reportArgumentType]
         os.chmod(temporary, 0o644)
         os.replace(temporary, target)
-    except OSError as error:
+    except BaseException as error:
         Path(temporary).unlink(missing_ok=True)
+        if not isinstance(error, OSError):
+            raise
         raise CogmapError(f"save: cannot write {target} ({error.strerror}); choose another file") from error
 
 
@@ -62,20 +65,49 @@ def load(path: str | PathLike[str]) -> Agent:
     arrays = _read(Path(path))
     header = _header(Path(path), arrays)
     try:
-        return Agent.from_state(header, arrays)
-    except (KeyError, IndexError, TypeError, ValueError) as error:
+        agent = Agent.from_state(header, arrays)
+        _check(agent)
+    except (AttributeError, ArithmeticError, LookupError, TypeError, ValueError) as error:
         raise CogmapError(f"load: {path} is damaged ({type(error).__name__}: {error}); save the agent again") from error
+    return agent
+
+
+def _json(header: dict[str, Any]) -> str:
+    try:
+        return json.dumps(header, allow_nan=False, default=_plain)
+    except (TypeError, ValueError) as error:
+        raise CogmapError(f"save: {error}; give labels, goals and settings as plain finite values") from error
+
+
+def _plain(value: object) -> Any:
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"cannot write {value!r} of type {type(value).__name__}")
+
+
+def _check(agent: Agent) -> None:
+    """Whether belief and window are about the map."""
+    for variable in agent.graph.variables:  # its factors check their shapes
+        if variable.name.startswith("s") and not all(place in agent.map.places for place in variable.domain):
+            raise CogmapError("the window is about places that the map does not have")
+    if agent.steps:
+        message = agent.belief.message
+        for numbers, count in ((message.places, len(agent.map.places)), (message.positions, len(agent.map.positions))):
+            if numbers.min() < 0 or numbers.max() >= count:
+                raise CogmapError("the belief is about places that the map does not have")
 
 
 def _read(path: Path) -> dict[str, NDArray[Any]]:
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with path.open("rb") as raw:
+            file = np.load(raw, allow_pickle=False)
             if not isinstance(file, np.lib.npyio.NpzFile):
                 raise CogmapError(f"load: {path} is no saved agent but a single array; give a file that save wrote")
-            return {name: file[name] for name in file.files}
+            with file:
+                return {name: file[name] for name in file.files}
     except FileNotFoundError as error:
         raise CogmapError(f"load: there is no file {path}; give a file that save wrote") from error
-    except (OSError, EOFError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+    except (OSError, EOFError, RuntimeError, ValueError, struct.error, zipfile.BadZipFile, zlib.error) as error:
         if isinstance(error, CogmapError):
             raise
         raise CogmapError(f"load: {path} is no saved agent, or truncated; give a file that save wrote") from error
@@ -85,7 +117,7 @@ def _header(path: Path, arrays: dict[str, NDArray[Any]]) -> dict[str, Any]:
     try:
         header: dict[str, Any] = json.loads(arrays["header"].tobytes())
         schema = int(header["schema"]) if header["format"] == FORMAT else -1
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, OverflowError, TypeError, ValueError) as error:
         raise CogmapError(f"load: {path} is no saved agent (no header); give a file that save wrote") from error
     if schema < 0:
         raise CogmapError(f"load: {path} is a {header['format']!r}, no saved agent; give a file that save wrote")

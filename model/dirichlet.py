@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import CogmapError
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -78,11 +80,19 @@ class SparseDirichlet:
 
     def expect(self, row: int, key: int, prior: float) -> None:
         """Give outcome `key` of `row` a prior of its own."""
-        self._prior[row, self._slot(row, key)] = prior
+        slot = self._slot(row, key)  # may put larger arrays in place
+        self._prior[row, slot] = prior
 
     def rename(self, row: int, old: int, new: int) -> None:
-        """Let the slot of outcome `old` stand for `new`, with the counts it has."""
-        self._keys[row, self._slot(row, old)] = new
+        """Let the slot of outcome `old` stand for `new`, with the counts it has.
+
+        Raises:
+            CogmapError: `new` has a slot of its own.
+        """
+        if new in self._keys[row].tolist():
+            raise CogmapError(f"table: outcome {new} of row {row} has counts already; rename to an outcome without")
+        slot = self._slot(row, old)  # may put larger arrays in place
+        self._keys[row, slot] = new
 
     def add(self, row: int, key: int, amount: float) -> float:
         """Add evidence (negative takes away) for `key` in `row`; returns what was really added."""

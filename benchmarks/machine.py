@@ -1,0 +1,39 @@
+"""What a figure was measured on, and how it is written down."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from collections.abc import Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+PACKAGES = ("cogmap", "numpy", "scipy", "gtsam")
+
+
+def machine() -> dict[str, Any]:
+    """Processor, cores, Python and the versions that matter, as plain JSON values."""
+    return {
+        "processor": _processor(),
+        "cores": os.cpu_count(),
+        "load": [round(load, 2) for load in os.getloadavg()],
+        "system": platform.platform(),
+        "python": platform.python_version(),
+        **{name: version(name) for name in PACKAGES},
+    }
+
+
+def write_json(path: Path | None, result: Mapping[str, Any]) -> None:
+    """Write the result, with the machine it was measured on, where a file is given."""
+    if path is not None:
+        path.write_text(json.dumps({"machine": machine(), **result}, indent=2) + "\n")
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        return platform.processor()
+    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown")

@@ -1,0 +1,69 @@
+"""Runs every check of this repository, stops at none, and exits with 1 if any failed.
+
+Format, lint, types, import rules, tests with coverage, and the Python examples of README.md and docs/.
+Needs the test extra: pip install -e '.[test]'. Arguments go to pytest: check.py --study
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+LEAST_COVERAGE = 95  # per cent of the lines of the folders in [tool.coverage.run]
+JOBS = 2
+
+_LINT_IMPORTS = "from importlinter.cli import lint_imports_command; lint_imports_command()"
+_COVERAGE = ("--cov", f"--cov-fail-under={LEAST_COVERAGE}", "--cov-report=term:skip-covered")
+CHECKS: dict[str, Sequence[str]] = {
+    "format": ("-m", "ruff", "format", "--check", "."),
+    "lint": ("-m", "ruff", "check", "."),
+    "types": ("-m", "pyright", "--pythonpath", sys.executable),
+    "import rules": ("-c", _LINT_IMPORTS),
+    "tests": ("-m", "pytest", "-n", str(JOBS), *_COVERAGE),
+}
+
+
+def python_examples() -> dict[str, str]:
+    """The ```python blocks of README.md and docs/, those of one file joined, by the file's name."""
+    pages = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    blocks = {page: re.findall(r"^```python\n(.*?)^```", page.read_text("utf-8"), re.M | re.S) for page in pages}
+    return {str(page.relative_to(ROOT)): "\n".join(found) for page, found in blocks.items() if found}
+
+
+def run(name: str, arguments: Sequence[str], *, folder: Path = ROOT) -> bool:
+    """Run Python with `arguments` in `folder`, say how it went, and whether it went well."""
+    print(f"\n== {name}", flush=True)
+    begin = time.perf_counter()
+    code = subprocess.run([sys.executable, *arguments], cwd=folder, stdin=subprocess.DEVNULL).returncode
+    seconds = time.perf_counter() - begin
+    print(f"== {name}: {'ok' if code == 0 else f'FAILED (exit code {code})'}, {seconds:.1f} s", flush=True)
+    return code == 0
+
+
+def main(for_pytest: Sequence[str] = ()) -> int:
+    """Every check, then what failed."""
+    os.environ["PYRIGHT_PYTHON_IGNORE_WARNINGS"] = "1"  # that there is a newer one: ours is pinned
+    results = {
+        name: run(name, (*arguments, *for_pytest) if name == "tests" else arguments)
+        for name, arguments in CHECKS.items()
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        for page, code in python_examples().items():
+            name = f"example of {page}"
+            results[name] = run(name, ("-c", code), folder=Path(folder))
+    failed = [name for name, fine in results.items() if not fine]
+    print(
+        f"\n{len(results) - len(failed)} of {len(results)} checks ok" + "".join(f"; FAILED: {name}" for name in failed)
+    )
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,158 @@
+"""Settings: every knob refuses what makes no sense, and survives the way through JSON."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import FrozenInstanceError, replace
+from typing import Any
+
+import numpy as np
+import pytest
+from cogmap.agent import Agent, Settings
+from cogmap.inference.message import FilterOptions
+from cogmap.model import TEXT_RATES, CogmapError, Priors, Rates
+from hypothesis import given
+from hypothesis import settings as budget
+from hypothesis import strategies as st
+from walks import GRID
+
+NAN, INF = float("nan"), float("inf")
+
+REFUSED: dict[str, list[Any]] = {
+    "look_ahead": [0, -1, NAN],
+    "beam": [0, -5],
+    "window": [0, -1],
+    "precision": [-1.0, NAN, INF],
+    "collision_cost": [-0.1, NAN, INF],
+    "goal_weight": [-1.0, NAN, INF],
+    "forgetting": [-0.1, 1.1, NAN],
+    "certainty": [-0.1, 1.5, NAN],
+    "places": [0, -3],
+    "policies": ["best", "", None],
+    "growth": ["magic", None],
+    "engine": ["torch", None],
+    "choice": ["worst", None],
+}
+
+
+@pytest.mark.parametrize(("name", "value"), [(name, value) for name, values in REFUSED.items() for value in values])
+def test_values_out_of_range_are_refused(name: str, value: Any) -> None:
+    with pytest.raises(CogmapError, match=f"^settings: {name} is .*; (use|choose)") as raised:
+        Settings(**{name: value})
+    assert "\n" not in str(raised.value)
+
+
+WRONG_KIND: list[dict[str, Any]] = [
+    {"look_ahead": "6"},
+    {"look_ahead": None},
+    {"look_ahead": 1.5},
+    {"window": 2.5},
+    {"beam": 8.5},
+    {"places": "many"},
+    {"places": 2.5},
+    {"precision": "high"},
+    {"certainty": None},
+    {"discount": -1.0},
+    {"discount": 0.0},
+    {"discount": 1.5},
+    {"discount": NAN},
+    {"rates": 3},
+    {"rates": Rates(possible=(NAN, 1.0))},
+    {"rates": Rates(likelihood=-1.0)},
+    {"filter": None},
+    {"filter": FilterOptions(displacement=2.0)},
+    {"filter": FilterOptions(displacement=-1.0)},
+    {"filter": FilterOptions(slip=NAN)},
+    {"filter": FilterOptions(support=-1.0)},
+    {"priors": None},
+    {"priors": Priors(sight=0.0)},
+    {"priors": Priors(sight=-1.0)},
+    {"priors": Priors(transition=0.0)},
+    {"priors": Priors(position=0.0)},
+    {"priors": Priors(door_floor=0.7)},
+]
+
+
+@pytest.mark.parametrize("wrong", WRONG_KIND, ids=str)
+@pytest.mark.xfail(
+    strict=True,
+    raises=(TypeError, pytest.fail.Exception),
+    reason="LIBRARY agent/settings.py: kinds of values, discount, rates, filter and priors are not checked "
+    "(TypeError, or accepted and NaN or nonsense later)",
+)
+def test_values_of_the_wrong_kind_are_refused(wrong: dict[str, Any]) -> None:
+    with pytest.raises(CogmapError, match=r"^settings: "):
+        Settings(**wrong)
+
+
+def test_unknown_names_are_refused() -> None:
+    with pytest.raises(CogmapError, match="settings: unknown gamma, horizon; known are the fields"):
+        Settings.from_dict({"horizon": 3, "gamma": 16, "look_ahead": 2})
+
+
+BAD_DICTS: list[Any] = [{"rates": {"fast": 1}}, {"filter": {"x": 1}}, {"priors": {"y": 1}}, {1: 2}, None, 5]
+
+
+@pytest.mark.parametrize("values", BAD_DICTS, ids=str)
+@pytest.mark.xfail(
+    strict=True,
+    raises=TypeError,
+    reason="LIBRARY agent/settings.py from_dict: unknown nested names, and what is no dict of names, raise TypeError",
+)
+def test_unknown_nested_names_are_refused(values: Any) -> None:
+    with pytest.raises(CogmapError, match=r"^settings: "):
+        Settings.from_dict(values)
+
+
+some = st.builds(
+    Settings,
+    look_ahead=st.integers(1, 9),
+    policies=st.sampled_from(["map_guided", "exhaustive", "self_avoiding", "l_shaped"]),
+    precision=st.floats(0.0, 99.0),
+    choice=st.sampled_from(["best", "sampled"]),
+    growth=st.sampled_from(["predicted", "observed", "static"]),
+    places=st.one_of(st.none(), st.integers(1, 99)),
+    rates=st.sampled_from([Rates(), TEXT_RATES, Rates(likelihood=0.5)]),
+    forgetting=st.floats(0.0, 1.0),
+    certainty=st.floats(0.0, 1.0),
+    filter=st.builds(FilterOptions, displacement=st.floats(1e-9, 0.5)),
+    priors=st.builds(Priors, sight=st.floats(1e-12, 1.0)),
+    discount=st.floats(0.1, 1.0),
+)
+
+
+@given(some)
+@budget(max_examples=50, deadline=None)
+def test_settings_go_through_json_and_back(settings: Settings) -> None:
+    if settings.growth == "static" and settings.places is None:
+        settings = replace(settings, places=4)
+    values = settings.to_dict()
+    assert Settings.from_dict(values) == settings
+    assert Settings.from_dict(json.loads(json.dumps(values))) == settings
+    assert Settings.from_dict({}) == Settings()
+
+
+def test_settings_never_change() -> None:
+    settings = Settings()
+    with pytest.raises(FrozenInstanceError):
+        settings.window = 3  # type: ignore[misc]
+    settings.to_dict()["rates"]["possible"] = (1, 1)
+    assert settings == Settings()
+    with pytest.raises(TypeError):
+        Settings(6)  # type: ignore[misc]
+
+
+def test_the_paper_is_the_default() -> None:
+    settings = Settings()
+    assert (settings.certainty, settings.precision, settings.growth) == (0.7, 16.0, "predicted")
+    assert settings.rates == Rates((7, 5), (-7, -5), (5, 3))
+
+
+def test_static_growth_without_the_size_is_refused_by_the_agent() -> None:
+    with pytest.raises(CogmapError, match=r"set Settings\.places"):
+        Agent(GRID, settings=Settings(growth="static"))
+
+
+@pytest.mark.parametrize("seed", [0, 1, None, 2**63, np.int64(4)])
+def test_seeds(seed: Any) -> None:
+    assert Agent(GRID, seed=seed).steps == 0
