@@ -126,7 +126,7 @@ class Agent:
         evidence = self._infer(sight, open_)
         self._remember(evidence)
         self._learn(evidence)
-        self._choose()
+        self._choose(open_)
         self._record(label, open_, grown)
         self._action, self._open = self.plan.action, open_
         self._steps += 1
@@ -232,13 +232,14 @@ class Agent:
             self._pending = 0
         self._mapper.learn(self.belief, evidence, step=self._steps)
 
-    def _choose(self) -> None:
+    def _choose(self, open_: tuple[bool, ...]) -> None:
         settings = self.settings
         places, q = self.belief.message.by_place
         reach = cut_reach(
             self.map,
             places,
             q,
+            open_=open_,
             look_ahead=settings.look_ahead,
             preferences=self._preferences(),
             discount=settings.discount,

@@ -17,7 +17,7 @@ from .rollout import ExpectedFreeEnergy, evaluate
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 CHOICES = ("best", "sampled")
-TIE = 1e-3  # nats; policies closer than this are equally good: their odds at a precision of 16 are 1.016 to 1
+TIE = 1e-3  # nats; policies closer than this are equally good: at a precision of 16 their odds are 1.016 to 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,8 +97,8 @@ def choose(
 ) -> Plan:
     """The plan: "best" takes the least G, "sampled" draws from P(policy).
 
-    Among policies as good as the best (within `TIE`) the one that moves least is taken, and among those that move as
-    little the draw is even.
+    Among policies as good as the best (within `TIE`) the draw is even: an agent that knows its world walks about. Where
+    some sights are preferred those that move least come first: an agent at its goal stays there.
 
     Raises:
         CogmapError: unknown `how`, terms of other policies, or what `policy_posterior` raises.
@@ -110,13 +110,20 @@ def choose(
     G = terms.G
     probability = policy_posterior(G, precision=precision)
     if how == "best":
-        good = np.flatnonzero(G - G.min() <= TIE)
-        moves = (policies.actions[good] != reach.motions.stay).sum(axis=1)
-        chosen = int(rng.choice(good[moves == moves.min()]))
+        chosen = int(rng.choice(_best(reach, policies.actions, G)))
     else:
         chosen = int(rng.choice(len(G), p=probability))
     action = int(policies.actions[chosen, 0])
     return Plan(reach, policies.actions, terms, probability, chosen, action, policies.cut)
+
+
+def _best(reach: Reach, actions: Ints, G: Floats) -> Ints:
+    """Indices of the policies that are equally good and best."""
+    good = np.flatnonzero(G - G.min() <= TIE)
+    if np.ptp(reach.log_C) == 0.0:
+        return good
+    moves = (actions[good] != reach.motions.stay).sum(axis=1)
+    return good[moves == moves.min()]
 
 
 def plan(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -46,11 +46,12 @@ def cut_reach(
     places: Ints,
     belief: Floats,
     *,
+    open_: Sequence[bool],
     look_ahead: int,
     preferences: Preferences,
     discount: float = 1.0,
 ) -> Reach:
-    """The generative model over what policies can lead to from `belief` over `places`.
+    """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
     Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
     nearest places that are.
@@ -62,13 +63,14 @@ def cut_reach(
     A, multiplicity, log_C = _sights(map_, within, preferences)
     keys, alpha = _transitions(map_, within)
     B = _local_B(within, keys, alpha)
+    _sense(B, np.searchsorted(within, places), open_)
     sights = _sight_information(map_, within, steps)
     here = np.arange(len(within))
     collision = np.zeros((len(local), len(map_.motions)))
     collision[:-1] = B[here, here, :]
     collision[:, map_.motions.stay] = 0.0
     transition_information = np.zeros((len(local), steps + 1))
-    transition_information[:-1] = _information(alpha, steps).sum(axis=1)
+    transition_information[:-1] = (_information(alpha, steps) * _untold(map_, within, keys)[..., None]).sum(axis=1)
     position_information = np.zeros((len(local), steps + 1))
     position_information[:-1] = _information(map_.A_p.concentration(within)[1], steps)
     return Reach(
@@ -157,6 +159,24 @@ def _local_B(places: Ints, keys: Ints, alpha: Floats) -> Floats:
     np.add.at(B, (index, place, action), p)
     B[size, size, :] = 1.0
     return B
+
+
+def _sense(B: Floats, places: Ints, open_: Sequence[bool]) -> None:
+    """Let the doors that are sensed now be as they are sensed, wherever the agent may be."""
+    for place in places.tolist():
+        for action, is_open in enumerate(open_):
+            column = B[:, place, action]
+            if not is_open:
+                column[:] = 0.0
+                column[place] = 1.0
+            elif column[place] < 1.0:
+                column[place] = 0.0
+                column /= column.sum()
+
+
+def _untold(map_: CognitiveMap, places: Ints, keys: Ints) -> NDArray[np.bool_]:
+    """`[R, K]` whether a look at a door can teach: not where a visit has shown all it can, and no place lies beyond."""
+    return ~(map_.visited[places][:, None] & (keys == ELSEWHERE).any(axis=2))
 
 
 def _successor(B: Floats, stay: int) -> Ints:

@@ -46,13 +46,15 @@ def test_posterior_bad_input(G: list[float], precision: float, message: str) -> 
         policy_posterior(G, precision=precision)
 
 
-def test_best_breaks_ties_evenly_among_those_that_move_least() -> None:
+def test_best_breaks_ties_evenly_and_among_those_that_move_least_where_something_is_preferred() -> None:
     _, terms = with_G([1.0, 0.0, 2.0, 1e-10, 0.0, 0.01])
     # policies 1, 3 and 4 are as good as the best; 4 moves twice, the other two once
     policies = Policies(np.array([[4, 4], [0, 4], [1, 4], [2, 4], [0, 0], [3, 4]]))
     rng = np.random.default_rng(0)
-    reach = random_reach(0)
-    chosen = [choose(reach, policies, terms, rng=rng).chosen for _ in range(400)]
+    exploring = replace(random_reach(0), log_C=np.zeros(4))
+    assert {choose(exploring, policies, terms, rng=rng).chosen for _ in range(400)} == {1, 3, 4}
+    preferring = replace(exploring, log_C=np.array([0.0, 1.0, 0.0, 0.0]))
+    chosen = [choose(preferring, policies, terms, rng=rng).chosen for _ in range(400)]
     assert set(chosen) == {1, 3}
     assert 150 < chosen.count(1) < 250
 

@@ -62,10 +62,10 @@ def test_mazes_never_seen_before_within_a_quarter_of_the_oracle(name: str, study
     assert np.mean(np.array(steps, dtype=float)) <= limit * np.mean(np.array(oracle, dtype=float))
 
 
-@pytest.mark.parametrize("name", ["3x3_alias", "4x4", "donut", "tolman"])
+@pytest.mark.parametrize("name", ["3x3_alias", "4x4", "4x4_alias", "tolman"])
 def test_predicted_growth_needs_the_fewest_steps(name: str, study: bool) -> None:
     def mean(growth: str) -> float:
-        runs = [explore(MAZES[name], settings=Settings(growth=growth), seed=s) for s in range(20 if study else 4)]
+        runs = [explore(MAZES[name], settings=Settings(growth=growth), seed=s) for s in range(20 if study else 8)]
         return float(np.mean([run.steps_to_complete or np.inf for run in runs]))
 
     predicted = mean("predicted")
