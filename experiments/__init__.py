@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .exploring import ExploreRun, Walk, default_steps, explore, walk
+    from .kidnapping import KidnapRun, kidnap, kidnap_many, kidnap_result
     from .knowledge import BELIEVED, Truth
+    from .navigating import NavigateRun, navigate, navigate_many, parse_goal
+    from .navigation import navigate_result
     from .oracle import frontier_steps, oracle_steps
-    from .pool import map_tasks
+    from .pool import map_seeds, map_tasks
     from .sweep import exploration, explore_many, summarise
     from .walkers import AGENTS, Walker, check_agent, make_walker
 
@@ -17,6 +20,8 @@ __all__ = [
     "AGENTS",
     "BELIEVED",
     "ExploreRun",
+    "KidnapRun",
+    "NavigateRun",
     "Truth",
     "Walk",
     "Walker",
@@ -26,14 +31,22 @@ __all__ = [
     "explore",
     "explore_many",
     "frontier_steps",
+    "kidnap",
+    "kidnap_many",
+    "kidnap_result",
     "make_walker",
+    "map_seeds",
     "map_tasks",
+    "navigate",
+    "navigate_many",
+    "navigate_result",
     "oracle_steps",
+    "parse_goal",
     "summarise",
     "walk",
 ]
 
-_MODULES = ("exploring", "knowledge", "oracle", "pool", "sweep", "walkers")
+_MODULES = ("exploring", "kidnapping", "knowledge", "navigating", "navigation", "oracle", "pool", "sweep", "walkers")
 
 
 def __getattr__(name: str) -> Any:

@@ -8,6 +8,8 @@ import typer
 
 from .cli_explore import explore_command
 from .cli_group import CogmapGroup
+from .cli_kidnap import kidnap_command
+from .cli_navigate import navigate_command
 from .cli_worlds import worlds_command
 
 app = typer.Typer(
@@ -40,6 +42,8 @@ def _cogmap(  # pyright: ignore[reportUnusedFunction]
 
 app.command("worlds")(worlds_command)
 app.command("explore")(explore_command)
+app.command("navigate")(navigate_command)
+app.command("kidnap")(kidnap_command)
 
 
 def main() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
+from itertools import count
 from threading import Timer
 
 PATIENCE = 1.0  # seconds before there is a bar
@@ -32,3 +33,11 @@ def progress(what: str, total: int) -> Generator[Callable[[int], None]]:
         timer.join()  # or the bar could start after it was stopped
         if bar.live.is_started:
             bar.stop()
+
+
+@contextmanager
+def counting(what: str, total: int) -> Generator[Callable[[], None]]:
+    """`progress` that yields a function to call after each of `total` parts."""
+    with progress(what, total) as report:
+        done = count(1)
+        yield lambda: report(next(done))

@@ -11,7 +11,7 @@ import typer
 
 from ..agent import Agent, Settings
 from ..worlds import Maze
-from .cli_progress import progress
+from .cli_progress import counting, progress
 from .cli_show import show_walk
 from .cli_table import console, show_sweeps
 from .exploring import Walk, walk
@@ -54,14 +54,7 @@ def run_single(request: Request, settings: Settings) -> None:
 def run_sweep(request: Request, settings: Sequence[Settings], runs: int) -> None:
     """Walk `runs` times with each of the settings, and compare them in a table."""
     results: list[dict[str, Any]] = []
-    with progress(f"exploring {request.maze.name}", runs * len(settings)) as report:
-        done = 0
-
-        def one_more() -> None:
-            nonlocal done
-            done += 1
-            report(done)
-
+    with counting(f"exploring {request.maze.name}", runs * len(settings)) as one_more:
         for setting in settings:
             part = explore_many(
                 request.maze,

@@ -19,7 +19,7 @@ from ..views import sight_colour
 from ..views.colours import ink_on
 from ..worlds import GRID, Maze, Position
 from .cli_spark import sparkline
-from .cli_table import console
+from .cli_table import console, count
 from .knowledge import BELIEVED, Truth
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def show_walk(maze: Maze, walk: Walk, *, agent: str) -> None:
     to = console()
     run = walk.run
     to.print(
-        f"[bold]{escape(maze.name)}[/bold]: {_count(len(maze.rooms), 'room')}, agent {agent}, seed {run.seed}",
+        f"[bold]{escape(maze.name)}[/bold]: {count(len(maze.rooms), 'room')}, agent {agent}, seed {run.seed}",
         highlight=False,
     )
     to.print(_maze(maze, walk.path, to.width))
@@ -48,17 +48,13 @@ def show_walk(maze: Maze, walk: Walk, *, agent: str) -> None:
         ("nearest-frontier search", run.frontier_steps),
     ):
         if steps is not None or name != "nearest-frontier search":
-            table.add_row(name, "-" if steps is None else _count(steps, "step"))
+            table.add_row(name, "-" if steps is None else count(steps, "step"))
     table.add_row("time", f"{run.seconds:.2f} s")
     if isinstance(walk.walker, Agent):
         _add_map(table, walk.walker.map)
         table.add_row("least believed transition", _belief(maze, walk, walk.walker))
         _add_energies(table, walk.walker, to)
     to.print(table)
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def _facts() -> Table:
@@ -118,9 +114,7 @@ def _add_map(table: Table, map_: CognitiveMap) -> None:
         "blocked": (sensed == BLOCKED).sum(),
         "unknown": (~walked & (sensed != OPEN) & (sensed != BLOCKED)).sum(),
     }
-    table.add_row(
-        "map", f"{_count(len(map_.places), 'place')} ({visited} visited), {_count(len(map_.sights), 'sight')}"
-    )
+    table.add_row("map", f"{count(len(map_.places), 'place')} ({visited} visited), {count(len(map_.sights), 'sight')}")
     table.add_row("transitions", ", ".join(f"{count} {name}" for name, count in counts.items()))
 
 

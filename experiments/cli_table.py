@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rich.box import SIMPLE_HEAD
@@ -30,10 +30,34 @@ def show_sweeps(results: Sequence[dict[str, Any]]) -> None:
     to.print(title, highlight=False)
     to.print(table)
     for result in results:
-        lost = [str(run["seed"]) for run in result["runs"] if run["steps_to_complete"] is None]
-        if lost:
-            text = ", ".join(lost[:20]) + (" ..." if len(lost) > 20 else "")
-            to.print(f"{_name(result)}: not complete with seeds {text}", style="red", markup=False, highlight=False)
+        if lost := seeds_of(result["runs"], lambda run: run["steps_to_complete"] is None):
+            to.print(f"{_name(result)}: not complete with seeds {lost}", style="red", markup=False, highlight=False)
+
+
+def show_lines(title: str | None, lines: Sequence[str]) -> None:
+    """A title and a few lines of plain text."""
+    to = console()
+    if title is not None:
+        to.print(title, style="bold", markup=False, highlight=False)
+    for line in lines:
+        to.print(line, markup=False, highlight=False, soft_wrap=True)
+
+
+def seeds_of(runs: Sequence[dict[str, Any]], condition: Callable[[dict[str, Any]], bool], *, most: int = 20) -> str:
+    """The seeds of the runs of which the condition holds, as text."""
+    seeds = [str(run["seed"]) for run in runs if condition(run)]
+    return ", ".join(seeds[:most]) + (" ..." if len(seeds) > most else "")
+
+
+def spread(summary: dict[str, Any], name: str) -> str:
+    """Mean ± standard deviation of a figure in a summary."""
+    mean, std = summary[f"mean_{name}"], summary[f"std_{name}"]
+    return "-" if mean is None else f"{mean:.1f} ± {std:.1f}"
+
+
+def number(value: float | None, *, digits: int = 1) -> str:
+    """A number, or a dash for none."""
+    return "-" if value is None else f"{value:.{digits}f}"
 
 
 def _line(result: dict[str, Any]) -> list[str]:
@@ -41,9 +65,9 @@ def _line(result: dict[str, Any]) -> list[str]:
     return [
         _name(result),
         f"{summary['completed']}/{summary['runs']}",
-        *(_spread(summary, name) for name in ("steps_to_visit_all", "steps_to_learn", "steps_to_complete")),
-        _number(summary["mean_oracle_steps"]),
-        _number(summary["ratio"], digits=3),
+        *(spread(summary, name) for name in ("steps_to_visit_all", "steps_to_learn", "steps_to_complete")),
+        number(summary["mean_oracle_steps"]),
+        number(summary["ratio"], digits=3),
     ]
 
 
@@ -51,10 +75,6 @@ def _name(result: dict[str, Any]) -> str:
     return result["settings"].get("growth", result["agent"])
 
 
-def _spread(summary: dict[str, Any], name: str) -> str:
-    mean, std = summary[f"mean_{name}"], summary[f"std_{name}"]
-    return "-" if mean is None else f"{mean:.1f} ± {std:.1f}"
-
-
-def _number(value: float | None, *, digits: int = 1) -> str:
-    return "-" if value is None else f"{value:.{digits}f}"
+def count(number: int, what: str) -> str:
+    """`1 step`, `2 steps`."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"

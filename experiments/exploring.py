@@ -105,16 +105,11 @@ def walk(
         CogmapError: unknown agent, a negative seed, or `max_steps` below 1.
     """
     check_agent(agent)
-    most = default_steps(maze) if max_steps is None else max_steps
-    if most < 1:
-        raise CogmapError(f"explore: max_steps is {most}; use 1 or more")
-    if seed < 0:
-        raise CogmapError(f"explore: seed is {seed}; use 0 or more")
-    for_start, for_agent = np.random.SeedSequence(seed).spawn(2)
-    start = maze.rooms[int(np.random.default_rng(for_start).integers(len(maze.rooms)))]
+    most = checked_steps("explore", maze, max_steps)
+    start, for_agent, _ = draw_start("explore", maze, seed)
     walker = make_walker(agent, settings=fitted(settings or Settings(), maze), seed=for_agent)
     begin = perf_counter()
-    path, firsts = _go(maze, start, walker, most, watch)
+    path, firsts = go(maze, start, walker, most, watch)
     seconds = perf_counter() - begin
     oracle = oracle_steps(maze, start)
     instead = frontier_steps(maze, start) if oracle is None else None
@@ -128,10 +123,37 @@ def default_steps(maze: Maze) -> int:
     return 50 * len(maze.rooms) + 50
 
 
+def checked_steps(experiment: str, maze: Maze, max_steps: int | None) -> int:
+    """`max_steps`, or `default_steps(maze)` where it is None.
+
+    Raises:
+        CogmapError: it is below 1.
+    """
+    most = default_steps(maze) if max_steps is None else max_steps
+    if most < 1:
+        raise CogmapError(f"{experiment}: max_steps is {most}; use 1 or more")
+    return most
+
+
+def draw_start(experiment: str, maze: Maze, seed: int) -> tuple[Position, np.random.SeedSequence, np.random.Generator]:
+    """What a seed settles: the start room, the stream of the agent, and draws of what happens to it later.
+
+    Raises:
+        CogmapError: `seed` is below 0.
+    """
+    if seed < 0:
+        raise CogmapError(f"{experiment}: seed is {seed}; use 0 or more")
+    for_start, for_agent, later = np.random.SeedSequence(seed).spawn(3)
+    start = maze.rooms[int(np.random.default_rng(for_start).integers(len(maze.rooms)))]
+    return start, for_agent, np.random.default_rng(later)
+
+
 Firsts = tuple[int | None, int | None, int | None]
 
 
-def _go(maze: Maze, start: Position, walker: Walker, most: int, watch: Watch | None) -> tuple[list[Position], Firsts]:
+def go(
+    maze: Maze, start: Position, walker: Walker, most: int, watch: Watch | None = None
+) -> tuple[list[Position], Firsts]:
     """The walk: its rooms, and the steps to visit all, to learn, and to complete."""
     world, truth = MazeEnv(maze), Truth(maze, start)
     observation, _ = world.reset(options={"start": start})

@@ -55,6 +55,24 @@ def map_tasks(
         return [future.result() for future in futures]
 
 
+def map_seeds(
+    function: Callable[[int], Result],
+    *,
+    runs: int,
+    seed: int = 0,
+    jobs: int = 1,
+    on_done: Callable[[], None] | None = None,
+) -> list[Result]:
+    """Results of the seeds `seed`, `seed + 1`, ..., so that each run can be repeated alone; see `map_tasks`.
+
+    Raises:
+        CogmapError: `runs` is below 1, or what `map_tasks` raises.
+    """
+    if runs < 1:
+        raise CogmapError(f"runs is {runs}; use 1 or more")
+    return map_tasks(function, range(seed, seed + runs), jobs=jobs, on_done=on_done)
+
+
 @contextmanager
 def _workers(count: int) -> Generator[ProcessPoolExecutor]:
     """A pool that is ended at once, not after its last task, when something goes wrong."""

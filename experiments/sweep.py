@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 
 from ..agent import Settings
-from ..model.errors import CogmapError
 from ..worlds import Maze
 from .exploring import ExploreRun, default_steps, explore
-from .pool import map_tasks
+from .pool import map_seeds
 from .walkers import fitted
 
 
@@ -35,10 +34,8 @@ def explore_many(
     Raises:
         CogmapError: `runs` is below 1, or what those raise.
     """
-    if runs < 1:
-        raise CogmapError(f"explore: runs is {runs}; use 1 or more")
     one = partial(_one, maze, agent, settings, max_steps)
-    return map_tasks(one, range(seed, seed + runs), jobs=jobs, on_done=on_done)
+    return map_seeds(one, runs=runs, seed=seed, jobs=jobs, on_done=on_done)
 
 
 def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:

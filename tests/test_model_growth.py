@@ -155,23 +155,7 @@ def test_unknown_growth() -> None:
         growth_named("magic")
 
 
-@pytest.mark.parametrize(
-    "growth",
-    [
-        "predicted",
-        *[
-            pytest.param(
-                growth,
-                marks=pytest.mark.xfail(
-                    strict=True,
-                    reason="LIBRARY planning: with doors that nothing is known behind, `stay` keeps the promise of "
-                    "transition_information that sensing never pays; the agent never leaves its first room",
-                ),
-            )
-            for growth in ("observed", "static")
-        ],
-    ],
-)
+@pytest.mark.parametrize("growth", GROWTHS)
 def test_an_agent_leaves_its_first_room(growth: str) -> None:
     world = load_world("3x3")
     agent = Agent(world.motions, settings=Settings(growth=growth, places=9, look_ahead=3), seed=0)

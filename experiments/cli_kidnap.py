@@ -1,0 +1,92 @@
+"""`cogmap kidnap`: moved without a word, one run for people, or a sweep."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .cli_explore import Jobs, LookAhead, Policies, Runs, Seed, World
+
+MaxSteps = Annotated[
+    int | None,
+    typer.Option(min=1, help="Give up exploring after so many, and again what follows; 50 a room + 50 unless given."),
+]
+Json = Annotated[Path | None, typer.Option(metavar="FILE", help="Write the runs as JSON.")]
+
+
+def kidnap_command(
+    world: World,
+    runs: Runs = None,
+    seed: Seed = 0,
+    look_ahead: LookAhead = 6,
+    max_steps: MaxSteps = None,
+    policies: Policies = "map_guided",
+    jobs: Jobs = 1,
+    json: Json = None,
+) -> None:
+    """Explore a maze, then be moved to another room without a word: how soon does the agent know where it is?
+
+    Exit code 0, or 1 where the one run (without --runs) did not recover.
+    """
+    from ..agent import Settings
+    from ..worlds import load_world
+    from .cli_progress import counting
+    from .cli_table import show_lines
+    from .kidnapping import check_kidnap, kidnap_many, kidnap_result
+    from .output import check_outputs, write_json
+
+    maze = load_world(world).maze
+    settings = Settings(look_ahead=look_ahead, policies=policies)
+    check_kidnap(maze)
+    check_outputs([json])
+    with counting(f"kidnapping in {maze.name}", runs or 1) as one_more:
+        done = kidnap_many(
+            maze, runs=runs or 1, settings=settings, seed=seed, max_steps=max_steps, jobs=jobs, on_done=one_more
+        )
+    result = kidnap_result(maze, done, settings=settings, max_steps=max_steps)
+    show_lines(maze.name, _one(result["runs"][0], result["summary"]) if runs is None else _many(result))
+    if json is not None:
+        write_json(json, result)
+        show_lines(None, [f"runs saved: {json}"])
+    if runs is None and not done[0].recovered:
+        raise typer.Exit(1)
+
+
+def _one(run: dict[str, Any], summary: dict[str, Any]) -> list[str]:
+    from .cli_table import count
+
+    if run["moved_to"] is None:
+        return [f"Not explored after {count(summary['max_steps'], 'step')}; allow more with --max-steps."]
+    steps = run["steps_to_recover"]
+    found = (
+        f"not recovered after {count(summary['max_steps'], 'step')}"
+        if steps is None
+        else f"recovered after {count(steps, 'step')}"
+    )
+    return [
+        f"explored from {tuple(run['start'])} in {count(run['steps_to_explore'], 'step')}, then moved to "
+        f"{tuple(run['moved_to'])} without a word",
+        f"{found}; certain but wrong at {run['steps_certain_but_wrong']}",
+        f"map intact: {'yes' if run['map_intact'] else 'no'}",
+    ]
+
+
+def _many(result: dict[str, Any]) -> list[str]:
+    from .cli_table import number, seeds_of, spread
+
+    summary, runs = result["summary"], result["runs"]
+    total = summary["runs"]
+    lines = [
+        f"explored {summary['explored']}/{total}, recovered {summary['recovered']}/{total}, "
+        f"map intact {summary['map_intact']}/{total}",
+        f"steps to recover: {spread(summary, 'steps_to_recover')} (mean ± standard deviation), "
+        f"most {number(summary['most_steps_to_recover'], digits=0)}",
+        f"steps certain but wrong: {number(summary['mean_steps_certain_but_wrong'])} (mean)",
+    ]
+    if lost := seeds_of(runs, lambda run: not run["recovered"]):
+        lines.append(f"not recovered with seeds {lost}")
+    if harmed := seeds_of(runs, lambda run: run["map_intact"] is False):
+        lines.append(f"map not intact with seeds {harmed}")
+    return lines
