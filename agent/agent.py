@@ -228,7 +228,7 @@ class Agent:
             self._pending += 1
             return
         if self._pending:
-            self._mapper.catch_up(list(self._window)[:-1], self._pending, step=self._steps)
+            self._mapper.catch_up(list(self._window), self._pending, step=self._steps)
             self._pending = 0
         self._mapper.learn(self.belief, evidence, step=self._steps)
 

@@ -44,8 +44,8 @@ class Mapper:
         self._visit(belief.place, evidence.sight, evidence.open, belief.certainty, step=step)
 
     def catch_up(self, window: Sequence[Slice], pending: int, *, step: int) -> None:
-        """Learn what was walked while uncertain, where the smoothed window says where that was."""
-        waiting = window[-pending:]
+        """Learn what was walked in the `pending` steps before the last, where the smoothed window is certain of it."""
+        waiting = window[-1 - pending : -1]
         if len(window) < 2:
             return
         steps = [slice_.step for slice_ in waiting if slice_ is not window[0]]

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any
+from operator import attrgetter
+from typing import Any, cast
+
+import numpy as np
 
 from ..inference.message import FilterOptions
 from ..inference.query import ENGINES
@@ -39,7 +42,7 @@ class Settings:
         priors: concentrations before evidence (ours; the paper starts from the shape of its matrices).
         discount: weight of each step of a policy relative to the one before (ours; paper: 1).
         goal_weight: weight of the utility term (paper: 1, and 2 in the Tolman maze).
-        collision_cost: -log P(c = 1), what a collision costs, in nats (paper: binary; eq. 7).
+        collision_cost: -log P(c = 1), what a collision costs, in nats (paper: binary; eq. 8).
 
     Raises:
         CogmapError: a value is out of range, or a name is unknown.
@@ -64,16 +67,25 @@ class Settings:
     collision_cost: float = 1.0
 
     def __post_init__(self) -> None:
-        for name in ("look_ahead", "beam", "window"):
-            _check(getattr(self, name) >= 1, name, getattr(self, name), "use 1 or more")
-        for name in ("precision", "collision_cost", "goal_weight"):
-            _check(0.0 <= getattr(self, name) < float("inf"), name, getattr(self, name), "use a number of 0 or more")
-        for name in ("forgetting", "certainty"):
-            _check(0.0 <= getattr(self, name) <= 1.0, name, getattr(self, name), "use a number from 0 to 1")
-        _check(self.places is None or self.places >= 1, "places", self.places, "use 1 or more, or None")
-        for name, known in (("policies", GENERATORS), ("growth", GROWTHS), ("engine", ENGINES), ("choice", CHOICES)):
+        for name, kind in _NESTED.items():
+            _check(isinstance(getattr(self, name), kind), name, getattr(self, name), f"use a {kind.__name__}")
+        for name in ("look_ahead", "beam", "window", "places"):
             value = getattr(self, name)
-            _check(value in known, name, value, f"choose one of {', '.join(known)}")
+            optional = name == "places" and value is None
+            _check(
+                optional or (isinstance(value, int | np.integer) and value >= 1),
+                name,
+                value,
+                "use a whole number of 1 or more",
+            )
+        for names, (least, most) in _RANGES.items():
+            for name in names.split():
+                value: Any = attrgetter(name)(self)
+                for number in value if isinstance(value, tuple) else (value,):
+                    fine = isinstance(number, int | float | np.number) and least <= number <= most
+                    _check(fine, name, value, f"use a number from {least:g} to {most:g}")
+        for name, known in (("policies", GENERATORS), ("growth", GROWTHS), ("engine", ENGINES), ("choice", CHOICES)):
+            _check(getattr(self, name) in known, name, getattr(self, name), f"choose one of {', '.join(known)}")
 
     def to_dict(self) -> dict[str, Any]:
         """The settings as plain JSON values."""
@@ -86,16 +98,40 @@ class Settings:
         Raises:
             CogmapError: a name is unknown.
         """
-        unknown = set(values) - {field_.name for field_ in fields(cls)}
-        if unknown:
-            raise CogmapError(f"settings: unknown {', '.join(sorted(unknown))}; known are the fields of Settings")
-        nested: dict[str, type[Any]] = {"rates": Rates, "filter": FilterOptions, "priors": Priors}
-        given = dict(values)
-        for name, kind in nested.items():
-            if isinstance(given.get(name), dict):
-                parts: dict[str, Any] = given[name]
+        given = _known(cls, values)
+        for name, kind in _NESTED.items():
+            if name in given:
+                parts = _known(kind, given[name])
                 given[name] = kind(**{key: tuple(v) if isinstance(v, list) else v for key, v in parts.items()})
         return cls(**given)
+
+
+_NESTED: dict[str, type[Any]] = {"rates": Rates, "filter": FilterOptions, "priors": Priors}
+
+_TINY, _LARGE = 1e-300, 1e300
+_RANGES = {
+    "precision collision_cost goal_weight": (0.0, _LARGE),
+    "forgetting certainty filter.displacement filter.slip filter.support": (0.0, 1.0),
+    "discount": (_TINY, 1.0),
+    "rates.possible rates.impossible rates.imagined": (-_LARGE, _LARGE),
+    "rates.likelihood": (0.0, _LARGE),
+    "priors.sight priors.position priors.transition priors.transition_ceiling": (_TINY, _LARGE),
+    "priors.door_floor": (_TINY, 0.5),
+}
+"""What each number may be; a pair of rates is checked one by one."""
+
+
+def _known(kind: type[Any], values: object) -> dict[str, Any]:
+    """The values by name, if all are fields of `kind`."""
+    names = [field_.name for field_ in fields(kind)]
+    if not isinstance(values, dict):
+        raise CogmapError(f"settings: {kind.__name__} cannot be made of {values!r}; give a dict of {', '.join(names)}")
+    given = cast(dict[str, Any], values)
+    if unknown := sorted(str(name) for name in given if name not in names):
+        raise CogmapError(
+            f"settings: unknown {', '.join(unknown)}; known are the fields of {kind.__name__}: {', '.join(names)}"
+        )
+    return dict(given)
 
 
 def _check(fine: bool, name: str, value: object, remedy: str) -> None:

@@ -16,7 +16,7 @@ from .labels import decode, encode
 
 Arrays = dict[str, NDArray[Any]]
 
-_SCALARS = ("evidence", "complexity", "accuracy", "moved", "dropped", "examined")
+_SCALARS = ("evidence", "moved", "dropped", "examined")
 
 
 def belief_state(belief: Belief | None) -> tuple[dict[str, Any] | None, Arrays]:
@@ -25,7 +25,7 @@ def belief_state(belief: Belief | None) -> tuple[dict[str, Any] | None, Arrays]:
         return None, {}
     header = {name: getattr(belief, name) for name in _SCALARS}
     message = belief.message
-    parts = [message.places, message.positions, message.mass, *belief.walks]
+    parts = [message.places, message.positions, message.mass, *belief.walks, belief.log_likelihood]
     return header, {f"belief.{i}": part for i, part in enumerate(parts)}
 
 
@@ -38,12 +38,16 @@ def restore_belief(header: Mapping[str, Any] | None, arrays: Mapping[str, NDArra
     """
     if header is None:
         return None
-    parts = [arrays[f"belief.{i}"] for i in range(6)]
-    if any(part.ndim != 1 or part.dtype.kind != kind for part, kind in zip(parts, "iifiif", strict=True)):
+    parts = [arrays[f"belief.{i}"] for i in range(7)]
+    if any(part.ndim != 1 or part.dtype.kind != kind for part, kind in zip(parts, "iifiiff", strict=True)):
         raise CogmapError("belief: an array is no list of numbers of its kind; save the agent again")
-    if any(len({len(part) for part in parts[i : i + 3]}) > 1 for i in (0, 3)) or not abs(parts[2].sum() - 1) < 1e-6:
+    lengths = [len(part) for part in parts]
+    if len({*lengths[:3], lengths[6]}) > 1 or len(set(lengths[3:6])) > 1 or not abs(parts[2].sum() - 1.0) < 1e-6:
         raise CogmapError("belief: the masses do not belong to its places and positions; save the agent again")
-    return Belief(message=Message(*parts[:3]), walks=(parts[3], parts[4], parts[5]), **header)
+    if not (np.isfinite(parts[6]).all() and (parts[6] <= 1e-9).all()):
+        raise CogmapError("belief: a likelihood is no probability; save the agent again")
+    message, walks = Message(*parts[:3]), (parts[3], parts[4], parts[5])
+    return Belief(message=message, walks=walks, log_likelihood=parts[6], **header)
 
 
 def window_state(window: Sequence[Slice]) -> tuple[list[dict[str, Any]], Arrays]:

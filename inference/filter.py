@@ -110,8 +110,7 @@ def _update(
     return Belief(
         message=Message(pair_places[kept], pair_positions[kept], q),
         evidence=float(np.log(z)),
-        complexity=float(q @ np.log(q / predicted[kept])),
-        accuracy=float(q @ np.log(like[kept])),
+        log_likelihood=np.log(like[kept]),
         moved=max(0.0, 1.0 - float(walked_mass.sum())) if displaced is not None else 0.0,
         dropped=1.0 - z / float(total) + unexamined,
         examined=displaced is not None,

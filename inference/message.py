@@ -85,8 +85,7 @@ class Belief:
     Attributes:
         message: Q(s_t, p_t | o_1..t).
         evidence: log P(o_t, c_t | the past), in nats, of what was kept.
-        complexity: KL from the predicted to the filtered Q(s_t, p_t), in nats.
-        accuracy: E_Q[log P(o_t, c_t | s_t)], in nats.
+        log_likelihood: `[n]` log P(o_t, c_t | s_t) for each pair of the message, in nats.
         moved: P(moved_t | o_1..t).
         dropped: posterior mass that was left out of the support, at most.
         examined: whether being displaced was examined; if not, all of it would have been dropped.
@@ -95,12 +94,21 @@ class Belief:
 
     message: Message
     evidence: float
-    complexity: float
-    accuracy: float
+    log_likelihood: Floats
     moved: float
     dropped: float
     examined: bool
     walks: tuple[Ints, Ints, Floats]
+
+    @property
+    def accuracy(self) -> float:
+        """E_Q[log P(o_t, c_t | s_t)], in nats."""
+        return float(self.message.mass @ self.log_likelihood)
+
+    @property
+    def complexity(self) -> float:
+        """KL from the predicted to the filtered Q(s_t, p_t), in nats: Q = predicted x likelihood / evidence."""
+        return self.accuracy - self.evidence
 
     @property
     def free_energy(self) -> float:
@@ -127,12 +135,15 @@ class Belief:
         previous, next_, mass = self.walks
         there = next_ == self.place
         message = Message(self.message.places[at], self.message.positions[at], self.message.mass[at] / kept)
+        walks = (previous[there], next_[there], mass[there] / kept)
         return replace(
             self,
             message=message,
+            log_likelihood=self.log_likelihood[at],
             evidence=self.evidence + float(np.log(kept)),
+            moved=max(0.0, 1.0 - float(walks[2].sum())) if self.examined else 0.0,
             dropped=1.0 - kept * (1.0 - self.dropped),
-            walks=(previous[there], next_[there], mass[there] / kept),
+            walks=walks,
         )
 
     @property

@@ -114,15 +114,15 @@ class Learner:
         self.map.B_s.fade(slice(len(self.map.B_s)), keep)
 
     def _open(self, place: int, action: int, weight: float, *, was_blocked: bool) -> None:
-        beyond = self.map.beyond(place, action)
-        if beyond is None:  # nothing to imagine there (yet): the door is forgotten, as in observed growth
-            self.map.sensed[place, action] = UNKNOWN
-            return
-        inverse = self.map.motions.inverse[action]
+        beyond, inverse = self.map.beyond(place, action), self.map.motions.inverse[action]
         if was_blocked:
             forward, reverse = self.rates.impossible
             self._add(place, place, action, weight * forward)
-            self._add(beyond, beyond, inverse, weight * reverse)
+            if beyond is not None:
+                self._add(beyond, beyond, inverse, weight * reverse)
+        if beyond is None:  # nothing to imagine there (yet): the door is forgotten, as in observed growth
+            self.map.sensed[place, action] = UNKNOWN
+            return
         forward, reverse = self.rates.imagined
         self._add(beyond, place, action, weight * forward)
         self._add(place, beyond, inverse, weight * reverse)

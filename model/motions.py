@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -77,13 +78,14 @@ class Motions:
         if isinstance(spec, Motions):
             return spec
         try:
-            named = spec if isinstance(spec, Mapping) else dict(zip(spec.names, spec.displacements, strict=True))
-            vectors = tuple(tuple(int(x) for x in vector) for vector in named.values())
-        except (AttributeError, TypeError, ValueError) as error:
+            names, given = (tuple(spec), tuple(spec.values())) if isinstance(spec, Mapping) else _listed(spec)
+            vectors = tuple(tuple(operator.index(x) for x in vector) for vector in given)
+        except (AttributeError, TypeError) as error:
             raise CogmapError(
-                f"motions: {type(spec).__name__} is no set of motions; give world.motions or {{name: displacement}}"
+                f"motions: {type(spec).__name__} is no set of motions in whole numbers; give world.motions or "
+                "{name: displacement}"
             ) from error
-        return cls(tuple(named), vectors)
+        return cls(names, vectors)
 
     def __len__(self) -> int:
         return len(self.names)
@@ -95,3 +97,7 @@ class Motions:
     def undone(self, position: Position, action: int) -> Position:
         """The position from which `action` leads to `position`."""
         return self.move(position, self.inverse[action])
+
+
+def _listed(spec: MotionSpec) -> tuple[tuple[str, ...], tuple[Sequence[int], ...]]:
+    return tuple(spec.names), tuple(spec.displacements)

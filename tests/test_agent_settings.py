@@ -74,12 +74,6 @@ WRONG_KIND: list[dict[str, Any]] = [
 
 
 @pytest.mark.parametrize("wrong", WRONG_KIND, ids=str)
-@pytest.mark.xfail(
-    strict=True,
-    raises=(TypeError, pytest.fail.Exception),
-    reason="LIBRARY agent/settings.py: kinds of values, discount, rates, filter and priors are not checked "
-    "(TypeError, or accepted and NaN or nonsense later)",
-)
 def test_values_of_the_wrong_kind_are_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(CogmapError, match=r"^settings: "):
         Settings(**wrong)
@@ -94,11 +88,6 @@ BAD_DICTS: list[Any] = [{"rates": {"fast": 1}}, {"filter": {"x": 1}}, {"priors":
 
 
 @pytest.mark.parametrize("values", BAD_DICTS, ids=str)
-@pytest.mark.xfail(
-    strict=True,
-    raises=TypeError,
-    reason="LIBRARY agent/settings.py from_dict: unknown nested names, and what is no dict of names, raise TypeError",
-)
 def test_unknown_nested_names_are_refused(values: Any) -> None:
     with pytest.raises(CogmapError, match=r"^settings: "):
         Settings.from_dict(values)

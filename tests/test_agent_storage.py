@@ -240,7 +240,7 @@ ARRAY_DAMAGE: dict[str, Callable[[np.ndarray], np.ndarray | None]] = {
 WINDOW_DAMAGE = ("gone", "half", "deeper", "a number")  # its shapes are checked, not its numbers
 HARMLESS = {  # what no further step reads, or what is a log only
     "half": {"growth"},
-    "below": {"belief.3", "belief.4", "belief.5"},
+    "below": {"belief.3", "belief.4", "belief.5", "belief.6"},
     "NaN": {"belief.5"},
 }
 

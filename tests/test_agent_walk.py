@@ -180,11 +180,6 @@ def test_nothing_is_learned_while_uncertain() -> None:
     assert uncertain > 3
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="LIBRARY agent/agent.py _learn: catch_up is given list(window)[:-1], without the slice whose evidence made "
-    "the agent certain again, so the smoothed window is as uncertain as it was and nothing is ever caught up on",
-)
 def test_what_was_walked_while_uncertain_is_learned_when_certainty_returns() -> None:
     caught_up = 0
     for seed in range(4):

@@ -319,14 +319,12 @@ def test_a_committed_belief_has_one_place() -> None:
     assert (twice.places, twice.evidence) == (committed.places, pytest.approx(committed.evidence))
 
 
-@pytest.mark.xfail(strict=True, reason=COMMITTED + "complexity is still that of the mixture: F != -evidence")
 def test_a_committed_belief_has_its_own_free_energy() -> None:
     _, belief = two_hypotheses()
     committed = belief.committed()
     assert committed.free_energy == pytest.approx(-committed.evidence, abs=1e-9)
 
 
-@pytest.mark.xfail(strict=True, reason=COMMITTED + "P(moved) is still that of the mixture")
 def test_a_committed_belief_has_its_own_probability_of_having_been_moved() -> None:
     _, belief = two_hypotheses()
     committed = belief.committed()

@@ -143,21 +143,16 @@ class Repeated:
     displacements = ((-1,), (1,), (0,), (0,))
 
 
-@pytest.mark.xfail(strict=True, reason="LIBRARY model/motions.py: Motions.of merges repeated names of a spec in a dict")
 def test_motions_of_a_spec_refuse_repeated_names() -> None:
     with pytest.raises(CogmapError):
         Motions.of(Repeated())
 
 
-@pytest.mark.xfail(strict=True, reason="LIBRARY model/motions.py: Motions.of cuts fractions off without a word")
 def test_motions_refuse_fractions() -> None:
     with pytest.raises(CogmapError):
         Motions.of({"left": (-1.5,), "right": (1.5,), "stay": (0,)})
 
 
-@pytest.mark.xfail(
-    strict=True, raises=OverflowError, reason="LIBRARY model/motions.py: OverflowError is not turned into CogmapError"
-)
 def test_motions_refuse_infinity() -> None:
     with pytest.raises(CogmapError):
         Motions.of({"left": (float("-inf"),), "right": (float("inf"),), "stay": (0,)})

@@ -138,11 +138,6 @@ def test_a_door_that_closes_and_opens_again() -> None:
     assert map_.transition(B, A, RIGHT) < map_.transition(A, A, RIGHT)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="LIBRARY model/learning.py _open: returns before was_blocked is looked at where nothing is known beyond "
-    "(observed and static growth), so a door that opens again stays believed blocked",
-)
 def test_a_wall_with_nothing_known_behind_can_open() -> None:
     map_, learner = pair()
     learner.doors(A, SHUT, 1.0)
