@@ -73,7 +73,7 @@ class Settings:
             value = getattr(self, name)
             optional = name == "places" and value is None
             _check(
-                optional or (isinstance(value, int | np.integer) and value >= 1),
+                optional or (isinstance(value, int | np.integer) and bool(value >= 1)),
                 name,
                 value,
                 "use a whole number of 1 or more",
@@ -82,7 +82,7 @@ class Settings:
             for name in names.split():
                 value: Any = attrgetter(name)(self)
                 for number in value if isinstance(value, tuple) else (value,):
-                    fine = isinstance(number, int | float | np.number) and least <= number <= most
+                    fine = isinstance(number, int | float | np.number) and bool(least <= number <= most)
                     _check(fine, name, value, f"use a number from {least:g} to {most:g}")
         for name, known in (("policies", GENERATORS), ("growth", GROWTHS), ("engine", ENGINES), ("choice", CHOICES)):
             _check(getattr(self, name) in known, name, getattr(self, name), f"choose one of {', '.join(known)}")
