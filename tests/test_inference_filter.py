@@ -17,7 +17,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import GRID, RIGHT, walk
 
-COMMITTED = "LIBRARY inference/message.py Belief.committed(): evidence and walks are those of the place that is kept, "
 ENGINES = ("numpy", "gtsam")
 WALKS = [
     ("3x3", "predicted"),
@@ -210,22 +209,16 @@ def test_moved_agrees_with_the_window(name: str, growth: str) -> None:
     examined = 0
     for agent, held in beliefs(name, growth):
         t, belief = agent.steps - 1, held[-1]
-        if t and not was_committed(belief):
+        if t:
             assert infer(agent.graph).marginal(f"moved{t}")[1] == pytest.approx(belief.moved, abs=1e-9)
             examined += belief.examined
     assert examined, "the walk was meant to have silent moves"
-
-
-def was_committed(belief: Belief) -> bool:
-    return abs(belief.free_energy + belief.evidence) > 1e-9
 
 
 @pytest.mark.parametrize(("name", "growth"), WALKS)
 def test_free_energy_is_minus_log_evidence(name: str, growth: str) -> None:
     for agent, held in beliefs(name, growth):
         belief = held[-1]
-        if was_committed(belief):  # see test_a_committed_belief_*
-            continue
         record = agent.trace[-1]
         assert belief.free_energy == pytest.approx(-belief.evidence, abs=1e-9)
         assert record.free_energy == pytest.approx(-record.evidence, abs=1e-9)
