@@ -27,6 +27,8 @@ from .settings import Settings
 from .state import Arrays, belief_state, restore_belief, restore_window, window_state
 from .trace import StepRecord
 
+Seed = int | np.random.SeedSequence | None
+
 
 class Agent:
     """An agent that builds its own map.
@@ -53,12 +55,12 @@ class Agent:
         motions: MotionSpec | Mapping[str, Sequence[int]],
         *,
         settings: Settings | None = None,
-        seed: int | None = None,
+        seed: Seed = None,
     ) -> None:
         self.settings = settings or Settings()
         self.map = CognitiveMap(Motions.of(motions), priors=self.settings.priors)
         self.trace: list[StepRecord] = []
-        self._rng = np.random.default_rng(seed)
+        self._rng = _generator(seed)
         self._mapper = Mapper(self.map, self.settings)
         self._window: deque[Slice] = deque(maxlen=self.settings.window + 1)
         self._pending = 0
@@ -285,3 +287,10 @@ class Agent:
                 action=plan_.action,
             )
         )
+
+
+def _generator(seed: Seed) -> np.random.Generator:
+    try:
+        return np.random.default_rng(seed)
+    except (TypeError, ValueError) as error:
+        raise CogmapError(f"agent: seed is {seed!r}; use a whole number of 0 or more, or None") from error

@@ -46,8 +46,6 @@ class Mapper:
     def catch_up(self, window: Sequence[Slice], pending: int, *, step: int) -> None:
         """Learn what was walked in the `pending` steps before the last, where the smoothed window is certain of it."""
         waiting = window[-1 - pending : -1]
-        if len(window) < 2:
-            return
         steps = [slice_.step for slice_ in waiting if slice_ is not window[0]]
         walks = [(f"s{t}", f"s{t - 1}", f"moved{t}") for t in steps]
         posterior = infer(window_graph(self._map, window), pairs=walks, engine=self._settings.engine)

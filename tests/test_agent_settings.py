@@ -145,3 +145,9 @@ def test_static_growth_without_the_size_is_refused_by_the_agent() -> None:
 @pytest.mark.parametrize("seed", [0, 1, None, 2**63, np.int64(4)])
 def test_seeds(seed: Any) -> None:
     assert Agent(GRID, seed=seed).steps == 0
+
+
+@pytest.mark.parametrize("seed", [-1, "a", 1.5])
+def test_a_bad_seed_is_refused(seed: Any) -> None:
+    with pytest.raises(CogmapError, match="seed is"):
+        Agent({"left": (-1,), "right": (1,), "stay": (0,)}, seed=seed)
