@@ -121,17 +121,23 @@ class SparseDirichlet:
             the number of outcomes without a slot, `[n]`, each of concentration `background`.
         """
         keys = self._keys[rows]
+        alpha = self._prior[rows] + self._evidence[rows]
         used = keys != EMPTY
-        alpha = self._prior[rows] + self._evidence[rows] + self.background * used
-        return keys, alpha, np.maximum(self.outcomes - used.sum(axis=1), 0).astype(np.float64)
+        if self.background:
+            alpha += self.background * used
+        return keys, alpha, np.maximum(float(self.outcomes) - used.sum(axis=1), 0.0)
 
     def mean(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
         """Expected probabilities of `rows`: keys and P `[n, slots]`, and P `[n]` of one outcome without a slot.
 
         A row that has no counts at all gives zero to every outcome.
         """
-        keys, alpha, others = self.concentration(rows)
-        total = alpha.sum(axis=1) + self.background * others
+        if self.background:
+            keys, alpha, others = self.concentration(rows)
+            total = alpha.sum(axis=1) + self.background * others
+        else:
+            keys, alpha = self._keys[rows], self._prior[rows] + self._evidence[rows]
+            total = alpha.sum(axis=1)
         total = np.where(total > 0.0, total, 1.0)
         return keys, alpha / total[:, None], self.background / total
 
@@ -139,6 +145,8 @@ class SparseDirichlet:
         """Expected probability `[n]` of outcome `key` (one, or one a row) in `rows`."""
         keys, p, other = self.mean(rows)
         match = keys == np.reshape(key, (-1, 1))
+        if not self.background:
+            return (p * match).sum(axis=1)
         return np.where(match.any(axis=1), (p * match).sum(axis=1), other)
 
     def dense(self, outcomes: int) -> Floats:
