@@ -113,6 +113,10 @@ class SparseDirichlet:
         """Multiply the evidence of `rows` by `keep`, in [0, 1]: what was learned long ago fades."""
         self._evidence[rows] *= keep
 
+    def keys(self, rows: Ints) -> Ints:
+        """`[n, slots]` outcomes that have a slot in `rows` (`EMPTY` where unused)."""
+        return self._keys[rows]
+
     def concentration(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
         """Counts of `rows`.
 

@@ -102,10 +102,11 @@ def _ball(map_: CognitiveMap, places: Ints, look_ahead: int, preferences: Prefer
     found = bool(_promising(map_, frontier, preferences).any())
     steps = 0
     while len(frontier) and (steps < look_ahead or not found):
-        keys = map_.B_s.concentration((frontier[:, None] * len(actions) + actions).ravel())[0]
-        reached = np.unique(keys[keys >= 0])
-        frontier = reached[~known[reached]]
-        known[frontier] = True
+        keys = map_.B_s.keys((frontier[:, None] * len(actions) + actions).ravel())
+        reached = known.copy()
+        reached[keys[keys >= 0]] = True
+        frontier = np.flatnonzero(reached != known)
+        known = reached
         steps += 1
         found = found or bool(_promising(map_, frontier, preferences).any())
     return np.flatnonzero(known), max(steps, look_ahead)
