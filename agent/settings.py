@@ -115,7 +115,8 @@ _RANGES = {
     "discount": (_TINY, 1.0),
     "rates.possible rates.impossible rates.imagined": (-_LARGE, _LARGE),
     "rates.likelihood": (0.0, _LARGE),
-    "priors.sight priors.position priors.transition priors.transition_ceiling": (_TINY, _LARGE),
+    "rates.ceiling": (_TINY, _LARGE),
+    "priors.sight priors.position priors.transition": (_TINY, _LARGE),
     "priors.door_floor": (_TINY, 0.5),
 }
 """What each number may be; a pair of rates is checked one by one."""

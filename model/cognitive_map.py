@@ -40,14 +40,12 @@ class Priors:
         transition: of each way a door can turn out (blocked, or the place beyond) in B_s. Well below one, since a
             door is either open or not; how far below matters little (docs/decisions).
         door_floor: a door is never believed open or blocked beyond `1 - door_floor`.
-        transition_ceiling: evidence for one transition never exceeds this, so that a change is believed soon.
     """
 
     sight: float = 1e-9
     position: float = 1.0
     transition: float = 1e-4
     door_floor: float = 1e-5
-    transition_ceiling: float = 1e6
 
 
 class CognitiveMap:
@@ -66,7 +64,7 @@ class CognitiveMap:
         self.positions = Domain("positions")
         self.A_o = SparseDirichlet(slots=1, background=self.priors.sight, outcomes=1)
         self.A_p = SparseDirichlet(slots=1)
-        self.B_s = SparseDirichlet(slots=2, ceiling=self.priors.transition_ceiling)
+        self.B_s = SparseDirichlet(slots=2)
         self.growth: list[GrowthEvent] = []
         self._position_of = Column(np.int64)
         self._place_at = Column(np.int64)

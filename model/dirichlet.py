@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,15 +32,13 @@ class SparseDirichlet:
     Attributes:
         background: concentration of every outcome of the domain, whether it has a slot or not.
         outcomes: size of the domain; matters only where `background` is positive.
-        ceiling: evidence of one outcome never exceeds this.
     """
 
-    __slots__ = ("_evidence", "_keys", "_prior", "_rows", "background", "ceiling", "outcomes")
+    __slots__ = ("_evidence", "_keys", "_prior", "_rows", "background", "outcomes")
 
-    def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0, ceiling: float = np.inf) -> None:
+    def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0) -> None:
         self.background = background
         self.outcomes = outcomes
-        self.ceiling = ceiling
         self._rows = 0
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
@@ -94,13 +94,13 @@ class SparseDirichlet:
         slot = self._slot(row, old)  # may put larger arrays in place
         self._keys[row, slot] = new
 
-    def add(self, row: int, key: int, amount: float) -> float:
-        """Add evidence (negative takes away) for `key` in `row`; returns what was really added."""
+    def add(self, row: int, key: int, amount: float, *, most: float = inf) -> float:
+        """Add evidence (negative takes away) for `key` in `row`, `most` in all; returns what was really added."""
         if amount <= 0.0 and self.evidence(row, key) == 0.0:
             return 0.0
         slot = self._slot(row, key)
         before = float(self._evidence[row, slot])
-        after = min(max(before + amount, 0.0), self.ceiling)
+        after = min(max(before + amount, 0.0), max(before, most))
         self._evidence[row, slot] = after
         return after - before
 

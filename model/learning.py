@@ -17,18 +17,21 @@ class Rates:
         impossible: a way that was found blocked; negative, taken from the transition, and added to staying.
         imagined: a transition behind a door that was sensed open.
         likelihood: a sight or position met in a place.
+        ceiling: counts of one transition at most, however often it was walked: what one look at a closed door takes
+            away (ours; docs/decisions).
     """
 
     possible: tuple[float, float] = (7.0, 5.0)
     impossible: tuple[float, float] = (-7.0, -5.0)
     imagined: tuple[float, float] = (5.0, 3.0)
     likelihood: float = 1.0
+    ceiling: float = 7.0
 
 
 TABLE_RATES = Rates()
 """The paper's table."""
 
-TEXT_RATES = Rates(possible=(10.0, 7.0), impossible=(-10.0, -7.0))
+TEXT_RATES = Rates(possible=(10.0, 7.0), impossible=(-10.0, -7.0), ceiling=10.0)
 """The paper's running text, which differs from its table."""
 
 
@@ -82,7 +85,7 @@ class Learner:
         if action == self.map.motions.stay:
             return
         if previous == next_:
-            self._block(previous, action, weight)
+            self._shut(previous, action, weight, changed=True)
             return
         forward, reverse = self.rates.possible
         self._add(next_, previous, action, weight * forward)
@@ -91,16 +94,19 @@ class Learner:
             self.map.walked[previous, action] = True
 
     def doors(self, place: int, open_: Sequence[bool], weight: float) -> None:
-        """What is sensed of the doors of `place`; each change of a door is evidence once."""
-        for action in range(len(self.map.motions)):
+        """What is sensed of the doors of `place`.
+
+        Each look leaves the counts of one look at least, and takes the contrary away: many looks say no more than one,
+        and what has faded comes back. The other side of a door learns of it when it changes.
+        """
+        for action, is_open in enumerate(open_):
             if action == self.map.motions.stay:
                 continue
             before = int(self.map.sensed[place, action])
-            if open_[action] and before != OPEN:
-                self._open(place, action, weight, was_blocked=before == BLOCKED)
-            elif not open_[action] and before != BLOCKED:
-                self._block(place, action, weight)
-                self.map.sensed[place, action] = BLOCKED
+            if not is_open:
+                self._shut(place, action, weight, changed=before != BLOCKED)
+            else:
+                self._open(place, action, weight, before)
 
     def recall(self, place: int) -> None:
         """Teach a new place what its neighbours' doors have shown of it already: those that are blocked."""
@@ -113,34 +119,42 @@ class Learner:
         """Let all evidence for transitions fade by the factor `keep`."""
         self.map.B_s.fade(slice(len(self.map.B_s)), keep)
 
-    def _open(self, place: int, action: int, weight: float, *, was_blocked: bool) -> None:
+    def _open(self, place: int, action: int, weight: float, before: int) -> None:
         beyond, inverse = self.map.beyond(place, action), self.map.motions.inverse[action]
-        if was_blocked:
-            forward, reverse = self.rates.impossible
-            self._add(place, place, action, weight * forward)
-            if beyond is not None:
-                self._add(beyond, beyond, inverse, weight * reverse)
+        forward, reverse = self.rates.impossible
+        self._add(place, place, action, weight * forward)
+        if before == BLOCKED and beyond is not None:
+            self._add(beyond, beyond, inverse, weight * reverse)
         if beyond is None:  # nothing to imagine there (yet): the door is forgotten, as in observed growth
             self.map.sensed[place, action] = UNKNOWN
             return
         forward, reverse = self.rates.imagined
-        self._add(beyond, place, action, weight * forward)
-        self._add(place, beyond, inverse, weight * reverse)
+        self._raise(beyond, place, action, weight * forward)
+        if before != OPEN:
+            self._raise(place, beyond, inverse, weight * reverse)
         self.map.sensed[place, action] = OPEN
 
-    def _block(self, place: int, action: int, weight: float) -> None:
+    def _shut(self, place: int, action: int, weight: float, *, changed: bool) -> None:
         forward, reverse = self.rates.impossible
-        self._add(place, place, action, -weight * forward)
+        self._raise(place, place, action, -weight * forward)
+        self.map.sensed[place, action] = BLOCKED
         beyond = self.map.beyond(place, action)
         if beyond is None:
             return
-        inverse = self.map.motions.inverse[action]
         self._add(beyond, place, action, weight * forward)
-        self._add(beyond, beyond, inverse, -weight * reverse)
-        self._add(place, beyond, inverse, weight * reverse)
+        if changed:
+            inverse = self.map.motions.inverse[action]
+            self._raise(beyond, beyond, inverse, -weight * reverse)
+            self._add(place, beyond, inverse, weight * reverse)
+
+    def _raise(self, next_: int, previous: int, action: int, level: float) -> None:
+        """Counts of `level` at least."""
+        self._add(
+            next_, previous, action, max(level - self.map.B_s.evidence(self.map.row(previous, action), next_), 0.0)
+        )
 
     def _add(self, next_: int, previous: int, action: int, amount: float) -> None:
-        added = self.map.B_s.add(self.map.row(previous, action), next_, amount)
+        added = self.map.B_s.add(self.map.row(previous, action), next_, amount, most=self.rates.ceiling)
         self._note("B_s", next_, previous, action, added)
 
     def _note(self, table: str, outcome: int, place: int, action: int | None, amount: float) -> None:

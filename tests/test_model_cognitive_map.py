@@ -173,16 +173,12 @@ def test_beyond_is_the_most_probable_other_place() -> None:
 
 
 def test_priors_are_used() -> None:
-    map_ = CognitiveMap(
-        Motions.of(GRID), priors=Priors(sight=2.0, position=3.0, transition=4.0, transition_ceiling=9.0)
-    )
+    map_ = CognitiveMap(Motions.of(GRID), priors=Priors(sight=2.0, position=3.0, transition=4.0))
     map_.new_place((0, 0), step=0)
     map_.new_sight("a", step=0)
     assert map_.A_o.concentration(np.array([0]))[2].tolist() == [2.0]  # "a", and a sight never met
     assert map_.A_p.state()["prior"][0, 0] == 3.0
     assert map_.B_s.state()["prior"][0].tolist() == [4.0, 4.0]
-    map_.B_s.add(0, 0, 100.0)
-    assert map_.B_s.evidence(0, 0) == 9.0
 
 
 def test_networkx_has_every_place_and_transition() -> None:

@@ -23,7 +23,7 @@ class AgainstBruteForce(RuleBasedStateMachine):
         self.background = background
         self.size = 3
         self.slots = slots
-        self.table = SparseDirichlet(slots=slots, background=background, outcomes=self.size, ceiling=CEILING)
+        self.table = SparseDirichlet(slots=slots, background=background, outcomes=self.size)
         self.prior: list[dict[int, float]] = []
         self.evidence: list[dict[int, float]] = []
 
@@ -59,7 +59,7 @@ class AgainstBruteForce(RuleBasedStateMachine):
             row, key = self.row(at), self.key(of)
             before = self.evidence[row].get(key, 0.0)
             after = min(max(before + amount, 0.0), CEILING)
-            assert self.table.add(row, key, amount) == pytest.approx(after - before, abs=1e-12)
+            assert self.table.add(row, key, amount, most=CEILING) == pytest.approx(after - before, abs=1e-12)
             self.evidence[row][key] = after
 
     @rule(at=shares, old=shares, new=shares)
@@ -85,7 +85,7 @@ class AgainstBruteForce(RuleBasedStateMachine):
 
     @rule()
     def save_and_restore(self) -> None:
-        restored = SparseDirichlet(slots=self.slots, background=self.background, outcomes=self.size, ceiling=CEILING)
+        restored = SparseDirichlet(slots=self.slots, background=self.background, outcomes=self.size)
         restored.restore(self.table.state())
         self.table = restored
 
@@ -152,9 +152,10 @@ def test_evidence_is_taken_no_further_than_to_the_prior() -> None:
 
 
 def test_evidence_stops_at_the_ceiling() -> None:
-    table = SparseDirichlet(slots=1, ceiling=10.0)
+    table = SparseDirichlet(slots=1)
     table.append(1)
-    assert [table.add(0, 0, 7.0), table.add(0, 0, 7.0), table.add(0, 0, 7.0)] == [7.0, 3.0, 0.0]
+    assert [table.add(0, 0, 7.0, most=10.0) for _ in range(3)] == [7.0, 3.0, 0.0]
+    assert table.add(0, 0, 1.0, most=5.0) == 0.0  # what is above stays
 
 
 def test_taking_away_what_was_never_there_takes_no_slot() -> None:
