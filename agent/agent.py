@@ -70,6 +70,7 @@ class Agent:
         self._action: int | None = None
         self._open: tuple[bool, ...] = ()
         self._goals: dict[Hashable, float] = {}
+        self._goal_places: dict[int, float] = {}
         self._mapper.begin()
 
     # -- the public face -----------------------------------------------------------------------------------
@@ -103,17 +104,28 @@ class Agent:
         """The factor graph of the current window."""
         return window_graph(self.map, list(self._window))
 
-    def prefer(self, goals: Mapping[Hashable, float]) -> None:
-        """Set log preferences of sights over all others, in nats (before `goal_weight`); none explores.
+    def prefer(
+        self, sights: Mapping[Hashable, float] | None = None, *, places: Mapping[int, float] | None = None
+    ) -> None:
+        """Set log preferences over all others, in nats (before `goal_weight`); none explores.
 
-        Sights never met are allowed: until they are, "something new" carries the hope.
+        Args:
+            sights: by label. Labels never met are allowed: until they are, "something new" carries the hope.
+            places: by number of the place in the map, such as `map.place_at(position)`.
+
+        Raises:
+            CogmapError: a preference that is not finite, or a place that the map does not have.
         """
-        for label, value in goals.items():
+        sights, places = dict(sights or {}), dict(places or {})
+        for wanted, value in (*sights.items(), *places.items()):
             if not np.isfinite(value):
                 raise CogmapError(
-                    f"agent: preference {value} of {label!r} is not finite; give a log preference in nats"
+                    f"agent: preference {value} of {wanted!r} is not finite; give a log preference in nats"
                 )
-        self._goals = dict(goals)
+        for place in places:
+            if place not in self.map.places:
+                raise CogmapError(f"agent: no place {place!r} to prefer; places are 0 to {len(self.map.places) - 1}")
+        self._goals, self._goal_places = sights, places
 
     def step(self, observation: Mapping[str, Any]) -> int:
         """Take in one observation and answer with the index of the next action.
@@ -161,6 +173,7 @@ class Agent:
             "sights": [encode(label) for label in self.map.sights],
             "positions": [encode(label) for label in self.map.positions],
             "goals": [[encode(label), value] for label, value in self._goals.items()],
+            "goal_places": [[int(place), value] for place, value in self._goal_places.items()],
             "steps": self._steps,
             "pending": self._pending,
             "action": self._action,
@@ -181,6 +194,7 @@ class Agent:
         restore_map(agent.map, arrays, *labels)
         agent._mapper = Mapper(agent.map, agent.settings)
         agent._goals = {decode(label): value for label, value in header["goals"]}
+        agent._goal_places = dict(header.get("goal_places", []))
         agent._steps, agent._pending, agent._action = header["steps"], header["pending"], header["action"]
         agent._open = tuple(header["open"])
         agent._rng.bit_generator.state = header["rng"]
@@ -245,6 +259,7 @@ class Agent:
             look_ahead=settings.look_ahead,
             preferences=self._preferences(),
             discount=settings.discount,
+            information_weight=settings.information_weight,
         )
         self._plan = plan(
             reach,
@@ -256,12 +271,14 @@ class Agent:
         )
 
     def _preferences(self) -> Preferences:
+        weight = self.settings.goal_weight
         sights: dict[int, float] = {}
         for label, value in self._goals.items():
             known = self.map.sights.find(label)
             key = -1 if known is None else known
-            sights[key] = max(sights.get(key, -np.inf), self.settings.goal_weight * value)
-        return Preferences(sights=sights, collision_cost=self.settings.collision_cost)
+            sights[key] = max(sights.get(key, -np.inf), weight * value)
+        places = {place: weight * value for place, value in self._goal_places.items()}
+        return Preferences(sights=sights, places=places, collision_cost=self.settings.collision_cost)
 
     def _record(self, label: Hashable, open_: tuple[bool, ...], grown: int) -> None:
         belief, plan_ = self.belief, self.plan

@@ -41,7 +41,8 @@ class Settings:
         filter: displacement prior, slip and support of the forward filter (ours).
         priors: concentrations before evidence (ours; the paper starts from the shape of its matrices).
         discount: weight of each step of a policy relative to the one before (ours; paper: 1).
-        goal_weight: weight of the utility term (paper: 1, and 2 in the Tolman maze).
+        goal_weight: weight of the utility term: how much it exploits (paper: 1, and 2 in the Tolman maze).
+        information_weight: weight of the information gains: how much it explores (paper: 1).
         collision_cost: -log P(c = 1), what a collision costs, in nats (paper: binary; eq. 8).
 
     Raises:
@@ -64,6 +65,7 @@ class Settings:
     priors: Priors = field(default_factory=Priors)
     discount: float = 0.95
     goal_weight: float = 1.0
+    information_weight: float = 1.0
     collision_cost: float = 1.0
 
     def __post_init__(self) -> None:
@@ -110,7 +112,7 @@ _NESTED: dict[str, type[Any]] = {"rates": Rates, "filter": FilterOptions, "prior
 
 _TINY, _LARGE = 1e-300, 1e300
 _RANGES = {
-    "precision collision_cost goal_weight": (0.0, _LARGE),
+    "precision collision_cost goal_weight information_weight": (0.0, _LARGE),
     "forgetting certainty filter.displacement filter.slip filter.support": (0.0, 1.0),
     "discount": (_TINY, 1.0),
     "rates.possible rates.impossible rates.imagined": (-_LARGE, _LARGE),

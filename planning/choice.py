@@ -98,7 +98,7 @@ def choose(
     """The plan: "best" takes the least G, "sampled" draws from P(policy).
 
     Among policies as good as the best (within `TIE`) the draw is even: an agent that knows its world walks about. Where
-    some sights are preferred those that move least come first: an agent at its goal stays there.
+    something is preferred those that move least come first: an agent at its goal stays there.
 
     Raises:
         CogmapError: unknown `how`, terms of other policies, or what `policy_posterior` raises.
@@ -120,7 +120,7 @@ def choose(
 def _best(reach: Reach, actions: Ints, G: Floats) -> Ints:
     """Indices of the policies that are equally good and best."""
     good = np.flatnonzero(G - G.min() <= TIE)
-    if np.ptp(reach.log_C) == 0.0:
+    if reach.indifferent:
         return good
     moves = (actions[good] != reach.motions.stay).sum(axis=1)
     return good[moves == moves.min()]

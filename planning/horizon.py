@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -25,11 +25,13 @@ class Preferences:
     Attributes:
         sights: log preference of sights by number, relative to all others, in nats; `-1` stands for a sight
             never met.
+        places: log preference of being in a place, by number, relative to all others, in nats.
         collision_cost: -log P(c = 1): what a collision costs, in nats.
     """
 
-    sights: Mapping[int, float]
-    collision_cost: float
+    sights: Mapping[int, float] = field(default_factory=dict[int, float])
+    places: Mapping[int, float] = field(default_factory=dict[int, float])
+    collision_cost: float = 1.0
 
     def log_C(self, outcomes: int) -> tuple[Ints, Floats, float]:
         """Preferred outcomes, their log C, and that of each of the others, of `outcomes` in all."""
@@ -39,6 +41,10 @@ class Preferences:
             return keys, values, 0.0
         norm = float(np.logaddexp.reduce(np.append(values, np.log(max(outcomes - len(keys), 1e-300)))))
         return keys, values - norm, -norm
+
+    def log_C_place(self, places: Ints) -> Floats:
+        """`[n]` log preference of being in each of `places`."""
+        return np.array([self.places.get(place, 0.0) for place in places.tolist()])
 
 
 def cut_reach(
@@ -50,6 +56,7 @@ def cut_reach(
     look_ahead: int,
     preferences: Preferences,
     discount: float = 1.0,
+    information_weight: float = 1.0,
 ) -> Reach:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
@@ -61,6 +68,7 @@ def cut_reach(
     q = np.zeros(len(local))
     q[np.searchsorted(within, places)] = belief
     A, multiplicity, log_C = _sights(map_, within, preferences)
+    log_C_place = preferences.log_C_place(local)
     keys, alpha = _transitions(map_, within)
     B = _local_B(within, keys, alpha)
     _sense(B, np.searchsorted(within, places), open_)
@@ -81,6 +89,7 @@ def cut_reach(
         A=A,
         multiplicity=multiplicity,
         log_C=log_C,
+        log_C_place=log_C_place,
         B=B,
         collision=collision,
         collision_cost=preferences.collision_cost,
@@ -88,8 +97,11 @@ def cut_reach(
         position_information=position_information,
         transition_information=transition_information,
         successor=_successor(B, map_.motions.stay),
+        promise=information_weight * sights[:, 1]
+        + np.maximum(log_C @ A - (log_C @ multiplicity) / multiplicity.sum(), 0.0)
+        + np.maximum(log_C_place, 0.0),
         discount=discount,
-        promise=sights[:, 1] + np.maximum(log_C @ A - (log_C @ multiplicity) / multiplicity.sum(), 0.0),
+        information_weight=information_weight,
     )
 
 
@@ -114,7 +126,7 @@ def _ball(map_: CognitiveMap, places: Ints, look_ahead: int, preferences: Prefer
 
 def _promising(map_: CognitiveMap, places: Ints, preferences: Preferences) -> NDArray[np.bool_]:
     hoped = [key for key, value in preferences.sights.items() if value > 0.0 and key >= 0]
-    promising = ~map_.visited[places]
+    promising = ~map_.visited[places] | (preferences.log_C_place(places) > 0.0)
     for key in hoped:
         promising |= map_.A_o.probability(key, places) > PROMISING
     return promising

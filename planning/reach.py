@@ -30,6 +30,7 @@ class Reach:
         A: `[O, R]` P(o | s); columns sum to one.
         multiplicity: `[O]` sights that each row stands for.
         log_C: `[O]` log preference of each of the sights in the row, in nats (its weight included).
+        log_C_place: `[R]` log preference of being in each place, in nats; zero where none is given.
         B: `[R, R, K]` P(s' | s, a); `B[:, s, a]` sums to one.
         collision: `[R, K]` P(blocked | s, a); zero for `stay`.
         collision_cost: -log P(c = 1) of the preferred outcomes, in nats.
@@ -42,6 +43,7 @@ class Reach:
             map says blocked or knows nothing beyond.
         promise: `[R]` what a first visit is worth, in nats (for generators that look for goals).
         discount: weight of each step of a policy relative to the one before, above 0, at most 1.
+        information_weight: weight of every information gain beside utility and collision, 0 or more.
     """
 
     motions: Motions
@@ -51,6 +53,7 @@ class Reach:
     A: Floats
     multiplicity: Floats
     log_C: Floats
+    log_C_place: Floats
     B: Floats
     collision: Floats
     collision_cost: float
@@ -60,6 +63,17 @@ class Reach:
     successor: Ints
     promise: Floats
     discount: float = 1.0
+    information_weight: float = 1.0
+
+    @property
+    def utility(self) -> Floats:
+        """`[R]` expected log preference of a visit."""
+        return self.log_C @ self.A + self.log_C_place
+
+    @property
+    def indifferent(self) -> bool:
+        """Whether no sight and no place is preferred over the others."""
+        return bool(np.ptp(self.log_C) == 0.0 and np.ptp(self.log_C_place) == 0.0)
 
     def check(self) -> None:
         """Raise `CogmapError` naming the first table that is of the wrong shape or no probability."""
@@ -76,10 +90,17 @@ class Reach:
                 raise CogmapError(f"reach: {name} is no probability; its columns must sum to one")
         if not (self.collision.min() >= 0.0 and self.collision.max() <= 1.0):
             raise CogmapError("reach: collision is no probability; give numbers from 0 to 1")
-        if not (np.isfinite(self.log_C).all() and np.isfinite(self.collision_cost)):
-            raise CogmapError("reach: log_C and collision_cost must be finite; an outcome never wanted needs a floor")
+        wanted = np.concatenate([self.log_C, self.log_C_place, [self.collision_cost]])
+        if not np.isfinite(wanted).all():
+            raise CogmapError(
+                "reach: log_C, log_C_place and collision_cost must be finite; an outcome never wanted needs a floor"
+            )
         if not 0.0 < self.discount <= 1.0:
             raise CogmapError(f"reach: discount is {self.discount}; give a number above 0, at most 1")
+        if not 0.0 <= self.information_weight < np.inf:
+            raise CogmapError(
+                f"reach: information_weight is {self.information_weight}; give a finite number, 0 or more"
+            )
         if not self.multiplicity.min() >= 1.0:
             raise CogmapError("reach: multiplicity is below one; each row of A stands for one sight or more")
         if self.successor.min() < -1 or self.successor.max() >= len(self.belief):
@@ -93,6 +114,7 @@ class Reach:
             "A": (O, R),
             "multiplicity": (O,),
             "log_C": (O,),
+            "log_C_place": (R,),
             "B": (R, R, K),
             "collision": (R, K),
             "successor": (R, K),

@@ -45,9 +45,10 @@ def _terms(reach: Reach, policy: Sequence[int]) -> list[float]:
             visits[s], reached[s] = more, likelier
         sights = enumerate(predicted_sights(reach, belief))
         total[4] += weight * sum(mass * float(reach.log_C[o]) for o, mass in sights)
+        total[4] += weight * sum(belief[s] * float(reach.log_C_place[s]) for s in places)
         risk = sum(before[s] * float(reach.collision[s, action]) for s in places)
         total[5] += weight * reach.collision_cost * risk
-    return total
+    return [reach.information_weight * term for term in total[:4]] + total[4:]
 
 
 def predicted_places(reach: Reach, Q: Sequence[float], action: int) -> list[float]:

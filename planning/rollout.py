@@ -26,7 +26,7 @@ class ExpectedFreeEnergy:
         sight_information: what they would teach about A_o (eq. 8 learning).
         position_information: what the positions would teach about A_p (eq. 8 learning).
         transition_information: what their doors would teach about B_s (eq. 8 learning).
-        utility: expected log preference of the sights (eq. 5).
+        utility: expected log preference of the sights and places (eq. 5).
         collision: expected risk of collision (eq. 8).
     """
 
@@ -69,8 +69,10 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
         sight information       sum_t sum_s C_s(t) - C_s(t-1), I from `sight_information`
         position information    the same, I from `position_information`
         transition information  the same, I from `transition_information`
-        utility                 sum_t sum_o P_t(o) log_C[o]
+        utility                 sum_t sum_o P_t(o) log_C[o] + sum_s Q_t(s) log_C_place[s]
         collision               collision_cost sum_t sum_s Q_{t-1}(s) collision[s, a_t]
+
+    and the information terms multiplied by `information_weight`.
 
     Entropies are over all sights: a row of mass m and multiplicity k adds -m ln(m / k). I is linear between
     integers and constant beyond its table. C telescopes, so nothing is collected twice in a rollout; nor does
@@ -88,6 +90,7 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
     size = max(1, CHUNK // (tables.risk.size or 1))
     parts = [_evaluate(tables, actions[i : i + size]) for i in range(0, len(actions), size)]
     terms = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+    terms[:4] *= reach.information_weight
     return ExpectedFreeEnergy(*terms)
 
 
@@ -113,7 +116,7 @@ class _Tables:
             B=np.ascontiguousarray(reach.B.transpose(2, 1, 0)),
             A=A,
             ambiguity=_entropy(A),
-            utility=A @ reach.log_C,
+            utility=reach.utility,
             risk=np.ascontiguousarray(reach.collision_cost * reach.collision.T),
             information=(reach.sight_information, reach.position_information, reach.transition_information),
             discount=reach.discount,

@@ -44,6 +44,7 @@ def random_reach(
         A=np.ascontiguousarray(A),
         multiplicity=np.where(rng.random(sights) < 0.5, 1.0, rng.integers(1, 2000, sights)),
         log_C=rng.normal(size=sights) * rng.choice([0.0, 3.0]),
+        log_C_place=rng.normal(size=places) * rng.choice([0.0, 2.0]),
         B=B,
         collision=collision,
         collision_cost=float(rng.random() * 5),
@@ -53,6 +54,7 @@ def random_reach(
         successor=rng.integers(-1, places, (places, kinds)),
         promise=rng.random(places) * (rng.random(places) < 0.6),
         discount=float(rng.choice([1.0, 0.9])),
+        information_weight=float(rng.choice([0.0, 1.0, 2.5])),
     )
 
 
@@ -99,6 +101,7 @@ def grid_reach(
         A=A / A.sum(0),
         multiplicity=np.append(np.ones(R), 1000.0),
         log_C=log_C,
+        log_C_place=np.zeros(R),
         B=B / B.sum(0),
         collision=collision,
         collision_cost=1.0,

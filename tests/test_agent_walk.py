@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -278,3 +279,28 @@ def test_what_is_disliked_is_left() -> None:
     here = world.observe()["sight"]
     agent.prefer({here: -6.0})
     assert here not in [sight for sight, _ in follow(world, agent, 10)][2:]
+
+
+@pytest.mark.parametrize("name", ["3x3", "3x3_alias"])
+def test_it_goes_to_a_preferred_place_and_stays(name: str, tmp_path: Path) -> None:
+    world = load_world(name)
+    agent = walked(world, 30, look_ahead=6)
+    action = agent.step(world.observe())
+    here, goal = world.position, agent.belief.place
+    world.step(action)
+    for _ in range(6):  # away from it
+        world.step(agent.step(world.observe()))
+    agent.prefer(places={goal: 3.0})
+    agent.save(tmp_path / "agent.npz")
+    agent = Agent.load(tmp_path / "agent.npz")
+    for _ in range(6):
+        action = agent.step(world.observe())
+        world.step(action)
+    assert world.position == here
+    assert agent.map.motions.names[action] == "stay"
+
+
+def test_a_place_that_is_not_there_cannot_be_preferred() -> None:
+    agent = walked(load_world("3x3"), 3)
+    with pytest.raises(CogmapError, match="no place 99"):
+        agent.prefer(places={99: 1.0})

@@ -51,7 +51,7 @@ def test_best_breaks_ties_evenly_and_among_those_that_move_least_where_something
     # policies 1, 3 and 4 are as good as the best; 4 moves twice, the other two once
     policies = Policies(np.array([[4, 4], [0, 4], [1, 4], [2, 4], [0, 0], [3, 4]]))
     rng = np.random.default_rng(0)
-    exploring = replace(random_reach(0), log_C=np.zeros(4))
+    exploring = replace(random_reach(0), log_C=np.zeros(4), log_C_place=np.zeros(5))
     assert {choose(exploring, policies, terms, rng=rng).chosen for _ in range(400)} == {1, 3, 4}
     preferring = replace(exploring, log_C=np.array([0.0, 1.0, 0.0, 0.0]))
     chosen = [choose(preferring, policies, terms, rng=rng).chosen for _ in range(400)]
@@ -144,3 +144,9 @@ def test_unknown_names_list_the_choices() -> None:
 def test_plan_refuses_tables_that_do_not_fit(field: str, value: object) -> None:
     with pytest.raises(CogmapError, match=field):
         plan(replace(random_reach(0), **{field: value}), rng=np.random.default_rng(0))
+
+
+def test_a_preferred_place_counts_as_a_preference() -> None:
+    reach = replace(random_reach(0), log_C=np.zeros(4), log_C_place=np.zeros(5))
+    assert reach.indifferent
+    assert not replace(reach, log_C_place=np.eye(5)[2]).indifferent

@@ -97,6 +97,7 @@ def test_known_place_in_closed_form() -> None:
     B[0, :, 0] = B[1, :, 1] = 1.0
     B[[0, 1], [0, 1], 2] = 1.0
     reach = replace(reach, B=B, A=np.eye(2), multiplicity=np.ones(2), belief=np.array([1.0, 0.0]), discount=1.0)
+    reach = replace(reach, information_weight=1.0, log_C_place=np.zeros(2))
     terms = evaluate(reach, Policies(np.array([[1, 2], [1, 0]])))
     I, J, C = reach.sight_information, reach.transition_information, reach.log_C  # noqa: E741
     np.testing.assert_allclose(terms.state_information, 0.0, atol=1e-12)
@@ -111,6 +112,7 @@ def test_state_information_of_a_lost_agent_is_one_bit() -> None:
     reach = random_reach(0, motions=LINE, places=2, sights=2, look_ahead=1)
     still = np.repeat(np.eye(2)[:, :, None], 3, axis=2)
     reach = replace(reach, B=still, A=np.eye(2), multiplicity=np.ones(2), belief=np.array([0.5, 0.5]))
+    reach = replace(reach, information_weight=1.0)
     terms = evaluate(reach, Policies(np.array([[1], [2]])))
     assert terms.state_information[0] == pytest.approx(np.log(2))
     assert terms.state_information[1] == 0.0  # to stay is to look again at what was seen

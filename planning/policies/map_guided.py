@@ -97,7 +97,7 @@ class _Skeleton:
         floor = max(PROMISING * greatest, LEAST)
         promise = reach.promise.tolist()
         bit = [1 << i if worth > floor else 0 for i, worth in enumerate(promise)]
-        return cls(ways, unknown, bit, promise, (reach.log_C @ reach.A).tolist(), max(GREAT * greatest, LEAST))
+        return cls(ways, unknown, bit, promise, reach.utility.tolist(), max(GREAT * greatest, LEAST))
 
 
 def _starts(reach: Reach) -> list[int]:
