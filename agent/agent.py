@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import replace
 from os import PathLike
 from typing import Any
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..inference.filter import advance, begin
 from ..inference.message import Belief, Evidence
+from ..inference.rivals import Rivals, advance_rivals, certain_of, rivals_of
 from ..model.cognitive_map import CognitiveMap
 from ..model.errors import CogmapError
 from ..model.factor_graph import FactorGraph
@@ -22,6 +24,7 @@ from ..planning import Plan, plan
 from ..planning.horizon import Preferences, cut_reach
 from .labels import decode, encode
 from .mapper import Mapper
+from .past import past_state, restore_past, restore_rivals, rivals_state
 from .perception import perceive
 from .settings import Settings
 from .state import Arrays, belief_state, restore_belief, restore_window, window_state
@@ -71,7 +74,9 @@ class Agent:
         self._open: tuple[bool, ...] = ()
         self._goals: dict[Hashable, float] = {}
         self._goal_places: dict[int, float] = {}
-        self._mapper.begin()
+        self._rivals = Rivals.none(len(self.map.motions.displacements[0]))
+        self._retracted: int | None = None
+        self._mapper.wake()
 
     # -- the public face -----------------------------------------------------------------------------------
 
@@ -180,6 +185,8 @@ class Agent:
             "open": self._open,
             "rng": self._rng.bit_generator.state,
             "belief": belief,
+            "rivals": rivals_state(self._rivals),
+            **past_state(self._mapper),
             "window": window,
         }
         return header, {**map_arrays(self.map), **belief_arrays, **window_arrays}
@@ -194,10 +201,12 @@ class Agent:
         restore_map(agent.map, arrays, *labels)
         agent._mapper = Mapper(agent.map, agent.settings)
         agent._goals = {decode(label): value for label, value in header["goals"]}
-        agent._goal_places = dict(header.get("goal_places", []))
+        agent._goal_places = dict(header["goal_places"])
         agent._steps, agent._pending, agent._action = header["steps"], header["pending"], header["action"]
         agent._open = tuple(header["open"])
         agent._rng.bit_generator.state = header["rng"]
+        agent._rivals = restore_rivals(header["rivals"], len(agent.map.motions.displacements[0]))
+        restore_past(agent._mapper, header)
         agent._belief = restore_belief(header["belief"], arrays)
         agent._window.extend(restore_window(header["window"], arrays))
         return agent
@@ -211,15 +220,45 @@ class Agent:
         action = self._action
         was_open = action is not None and self._open[action]
         evidence = Evidence(action=action, was_open=was_open, sight=sight, open=open_)
+        self._mapper.begin(self._steps, evidence)
         if self._belief is None:
             self._belief = begin(self.map, 0, evidence)
         else:
             if action is not None and was_open and self.certain:
                 self._mapper.enter(self._belief.place, action, step=self._steps)
             self._belief = advance(self.map, self._belief.message, evidence, self.settings.filter)
-            if self.certain and not self.map.visited[self._belief.place]:
-                self._belief = self._belief.committed()
+            self._doubt(evidence)
         return evidence
+
+    def _doubt(self, evidence: Evidence) -> None:
+        """Weigh the belief against its rivals; commit it to a new place, or take back what it taught."""
+        mapper = self._mapper
+        rivals = advance_rivals(
+            self.map, self._rivals, self.belief, evidence, displacement=self.settings.filter.displacement
+        )
+        rivals = rivals.kept(rivals.since >= mapper.remembered)
+        self._retracted = None
+        if len(rivals) and rivals.probability(rivals.best) >= self.settings.certainty:
+            self._change_mind(rivals, evidence)
+            return
+        belief = self._belief = replace(self.belief, doubt=rivals.doubt)
+        if self.certain and not self.map.visited[belief.place]:
+            self._rivals = rivals.joined(rivals_of(self.map, belief, step=self._steps, visits=mapper.visits_before))
+            self._belief = belief.committed()
+        else:
+            self._rivals = rivals
+
+    def _change_mind(self, rivals: Rivals, evidence: Evidence) -> None:
+        """The best of the rivals was right: relive what happened since then where it happened."""
+        since, position = int(rivals.since[rivals.best]), tuple(rivals.positions[rivals.best].tolist())
+        place = self._mapper.relive(since, position, step=self._steps)
+        self._belief = certain_of(
+            self.map, place, evidence, odds=float(rivals.odds[rivals.best]), instead_of=self.belief
+        )
+        self._window.clear()
+        self._pending, self._retracted = 0, since
+        self._rivals = rivals.kept(rivals.since < since)
+        self._goal_places = {at: value for at, value in self._goal_places.items() if at in self.map.places}
 
     def _remember(self, evidence: Evidence) -> None:
         """Add the slice of this step to the window, with the tables as they are now."""
@@ -289,6 +328,7 @@ class Agent:
                 open=open_,
                 places=belief.places,
                 certainty=belief.certainty,
+                doubt=belief.doubt,
                 certain=self.certain,
                 moved=belief.moved,
                 dropped=belief.dropped,
@@ -302,6 +342,7 @@ class Agent:
                 G=plan_.expected_free_energy.row(plan_.chosen),
                 policies=len(plan_.policies),
                 action=plan_.action,
+                retracted=self._retracted,
             )
         )
 

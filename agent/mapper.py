@@ -2,33 +2,90 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
+from itertools import pairwise
 
 from ..inference.message import Belief, Evidence
 from ..inference.query import infer
 from ..model.cognitive_map import CognitiveMap
 from ..model.growth import growth_named
-from ..model.learning import Learner, Lesson
+from ..model.learning import Learner
+from ..model.lesson import Lesson
+from ..model.motions import Motions, Position
 from ..model.slices import Slice, window_graph
 from .settings import Settings
 
+MEMORY = 50
+"""Steps that can be taken back."""
+
 
 class Mapper:
-    """Learning and growth of one map, under one set of settings."""
+    """Learning and growth of one map, under one set of settings.
+
+    Attributes:
+        learner: teaches the map, and can take back its last steps.
+        recent: those steps and their evidence.
+    """
 
     def __init__(self, map_: CognitiveMap, settings: Settings) -> None:
         self._map = map_
         self._settings = settings
         self._growth = growth_named(settings.growth)
-        self._learner = Learner(map_, settings.rates)
+        self.learner = Learner(map_, settings.rates, memory=MEMORY)
+        self.recent: deque[tuple[int, Evidence]] = deque(maxlen=MEMORY)
 
-    def begin(self) -> None:
+    def wake(self) -> None:
         """The places that exist before anything was seen."""
         self._growth.begin(self._map, places=self._settings.places, step=0)
 
+    def begin(self, step: int, evidence: Evidence) -> None:
+        """A time step begins, with this evidence."""
+        self.learner.begin(step)
+        self.recent.append((step, evidence))
+
+    @property
+    def remembered(self) -> int:
+        """The first time step that can be taken back."""
+        return self.learner.chapters[0].step
+
+    @property
+    def visits_before(self) -> int:
+        """How many places were visited before this time step."""
+        return self.learner.chapters[-1].visits
+
+    def relive(self, since: int, position: Position, *, step: int) -> int:
+        """Take back what was taught from time step `since` on, and teach it along the way that ends at `position`.
+
+        Returns:
+            The place there. What the present step has to teach is left to `learn`.
+        """
+        happened = [evidence for then, evidence in self.recent if then >= since]
+        self.learner.take_back(since, step=step)
+        place = self._place_at(_way_back(self._map.motions, happened, position), step=step)
+        for now, then in pairwise(happened):
+            self._visit(place, now.sight, now.open, 1.0, step=step)
+            place = self._walk(place, then, step=step)
+        return place
+
+    def _walk(self, place: int, then: Evidence, *, step: int) -> int:
+        """Where the action of `then` led from `place`."""
+        action = then.action or 0
+        if action == self._map.motions.stay or not then.was_open:
+            return place
+        self.enter(place, action, step=step)
+        there = self._map.beyond(place, action)
+        assert there is not None  # an open door was just looked at, or entered
+        self.learner.transition(place, action, there, 1.0)
+        return there
+
+    def _place_at(self, position: Position, *, step: int) -> int:
+        place = self._map.place_at(position)
+        return self._map.new_place(position, step=step) if place is None else place
+
     def take_lessons(self) -> tuple[Lesson, ...]:
         """Which counts changed since the last call."""
-        return self._learner.take_lessons()
+        return self.learner.take_lessons()
 
     def enter(self, place: int, action: int, *, step: int) -> None:
         """Before inference: the agent took a door of `place` that was open."""
@@ -37,10 +94,10 @@ class Mapper:
     def learn(self, belief: Belief, evidence: Evidence, *, step: int) -> None:
         """What a certain belief teaches: transitions, sight, position, doors, and the places behind them."""
         if self._settings.forgetting:
-            self._learner.forget(1.0 - self._settings.forgetting)
+            self.learner.forget(1.0 - self._settings.forgetting)
         if evidence.action is not None:
             for previous, next_, weight in zip(*(part.tolist() for part in belief.walks), strict=True):
-                self._learner.transition(previous, evidence.action, next_, weight)
+                self.learner.transition(previous, evidence.action, next_, weight)
         self._visit(belief.place, evidence.sight, evidence.open, belief.certainty, step=step)
 
     def catch_up(self, window: Sequence[Slice], pending: int, *, step: int) -> None:
@@ -61,7 +118,7 @@ class Mapper:
             i, j = divmod(int(walked.argmax()), walked.shape[1])
             if walked[i, j] >= self._settings.certainty:
                 previous, next_ = int(at[t - 1].places[j]), int(at[t].places[i])
-                self._learner.transition(previous, at[t].action or 0, next_, float(walked[i, j]))
+                self.learner.transition(previous, at[t].action or 0, next_, float(walked[i, j]))
 
     def _visit(self, place: int, sight: int, open_: Sequence[bool], weight: float, *, step: int) -> None:
         """The agent is (or was) in `place`: its sight, position and doors, and what lies behind them.
@@ -70,11 +127,19 @@ class Mapper:
         would fix the sight of a place where the agent never was.
         """
         self._map.mark_visited(place)
-        self._learner.sight(place, sight, weight)
-        self._learner.position(place, int(self._map.position_index[place]), weight)
+        self.learner.sight(place, sight, weight)
+        self.learner.position(place, int(self._map.position_index[place]), weight)
         self._recall(self._growth.look(self._map, place, open_, step=step))
-        self._learner.doors(place, open_, weight)
+        self.learner.doors(place, open_, weight)
 
     def _recall(self, places: Sequence[int]) -> None:
         for place in places:
-            self._learner.recall(place)
+            self.learner.recall(place)
+
+
+def _way_back(motions: Motions, happened: Sequence[Evidence], position: Position) -> Position:
+    """Where the walk began that ended at `position`."""
+    for evidence in happened[:0:-1]:
+        if evidence.was_open:
+            position = motions.move(position, motions.inverse[evidence.action or 0])
+    return position

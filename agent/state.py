@@ -16,7 +16,7 @@ from .labels import decode, encode
 
 Arrays = dict[str, NDArray[Any]]
 
-_SCALARS = ("evidence", "moved", "dropped", "examined")
+_SCALARS = ("evidence", "moved", "dropped", "examined", "doubt")
 
 
 def belief_state(belief: Belief | None) -> tuple[dict[str, Any] | None, Arrays]:

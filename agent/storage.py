@@ -6,6 +6,7 @@ import json
 import os
 import struct
 import tempfile
+import tokenize
 import zipfile
 import zlib
 from os import PathLike
@@ -20,7 +21,7 @@ from ..model.errors import CogmapError
 if TYPE_CHECKING:
     from .agent import Agent
 
-SCHEMA = 1
+SCHEMA = 2
 """Version of the layout of the file."""
 
 FORMAT = "cogmap agent"
@@ -107,7 +108,17 @@ def _read(path: Path) -> dict[str, NDArray[Any]]:
                 return {name: file[name] for name in file.files}
     except FileNotFoundError as error:
         raise CogmapError(f"load: there is no file {path}; give a file that save wrote") from error
-    except (OSError, EOFError, RuntimeError, ValueError, struct.error, zipfile.BadZipFile, zlib.error) as error:
+    except (
+        OSError,
+        EOFError,
+        RuntimeError,
+        SyntaxError,
+        ValueError,
+        struct.error,
+        tokenize.TokenError,
+        zipfile.BadZipFile,
+        zlib.error,
+    ) as error:
         if isinstance(error, CogmapError):
             raise
         raise CogmapError(f"load: {path} is no saved agent, or truncated; give a file that save wrote") from error
@@ -121,6 +132,8 @@ def _header(path: Path, arrays: dict[str, NDArray[Any]]) -> dict[str, Any]:
         raise CogmapError(f"load: {path} is no saved agent (no header); give a file that save wrote") from error
     if schema < 0:
         raise CogmapError(f"load: {path} is a {header['format']!r}, no saved agent; give a file that save wrote")
+    if schema < SCHEMA:
+        raise CogmapError(f"load: {path} has schema {schema}, older than {SCHEMA}; explore and save again")
     if schema > SCHEMA:
         raise CogmapError(f"load: {path} has schema {schema}, newer than {SCHEMA}; update cogmap to read it")
     return header

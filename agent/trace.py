@@ -6,7 +6,7 @@ from collections.abc import Hashable
 from dataclasses import dataclass
 
 from ..model.growth_log import GrowthEvent
-from ..model.learning import Lesson
+from ..model.lesson import Lesson
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +19,7 @@ class StepRecord:
         open: for each action, whether its way was sensed open.
         places: Q(s_t), the most probable first.
         certainty: the first of them.
+        doubt: probability that the belief went astray at an earlier step.
         certain: whether learning and growth went on.
         moved: P(moved_t).
         dropped: posterior mass left out, at most.
@@ -32,6 +33,7 @@ class StepRecord:
         G: its expected free energy, term by term, and their sum under `G`, in nats.
         policies: how many policies were considered.
         action: the action taken.
+        retracted: the step since which it found to have been elsewhere, taking back what it had learned; or None.
     """
 
     step: int
@@ -39,6 +41,7 @@ class StepRecord:
     open: tuple[bool, ...]
     places: dict[int, float]
     certainty: float
+    doubt: float
     certain: bool
     moved: float
     dropped: float
@@ -52,6 +55,7 @@ class StepRecord:
     G: dict[str, float]
     policies: int
     action: int
+    retracted: int | None = None
 
     @property
     def free_energy(self) -> float:

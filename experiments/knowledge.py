@@ -29,8 +29,6 @@ class Truth:
         number = {room: i for i, room in enumerate(maze.rooms)}
         beyond = [[_beyond(maze, room, vector) for vector in GRID.displacements] for room in maze.rooms]
         self._target = np.array([[number[room] for room in row] for row in beyond], dtype=np.int64)  # [R, K]
-        self._place = np.full(len(number), -1, dtype=np.int64)
-        self._map: CognitiveMap | None = None
 
     def visited(self, map_: CognitiveMap) -> bool:
         """Whether the map has a visited place for every room."""
@@ -60,14 +58,8 @@ class Truth:
 
     def _places(self, map_: CognitiveMap) -> np.ndarray[tuple[int], np.dtype[np.int64]] | None:
         """`[R]` the place of each room, once every room has one."""
-        if self._map is not map_:
-            self._map, self._place[:] = map_, -1
-        for room in np.flatnonzero(self._place < 0).tolist():
-            place = map_.place_at(self._names[room])
-            if place is None:
-                return None
-            self._place[room] = place  # a place never loses its position
-        return self._place
+        places = [map_.place_at(name) for name in self._names]
+        return None if None in places else np.array(places, dtype=np.int64)
 
 
 def _beyond(maze: Maze, room: Position, vector: tuple[int, ...]) -> Position:

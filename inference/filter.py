@@ -115,6 +115,7 @@ def _update(
         dropped=1.0 - z / float(total) + unexamined,
         examined=displaced is not None,
         walks=_walks(message, walked, walked_mass),
+        faint=(pair_places[~kept], joint[~kept] / z),
     )
 
 

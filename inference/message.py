@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -78,6 +78,10 @@ class FilterOptions:
     support: float = 1e-3
 
 
+def _nothing() -> tuple[Ints, Floats]:
+    return np.zeros(0, dtype=np.int64), np.zeros(0)
+
+
 @dataclass(frozen=True)
 class Belief:
     """What the agent believes after one time step.
@@ -90,6 +94,8 @@ class Belief:
         dropped: posterior mass that was left out of the support, at most.
         examined: whether being displaced was examined; if not, all of it would have been dropped.
         walks: pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`.
+        doubt: probability that the belief went astray at an earlier step; see `rivals`.
+        faint: places that were dropped from the support, and their mass beside the kept ones'.
     """
 
     message: Message
@@ -99,6 +105,8 @@ class Belief:
     dropped: float
     examined: bool
     walks: tuple[Ints, Ints, Floats]
+    doubt: float = 0.0
+    faint: tuple[Ints, Floats] = field(default_factory=_nothing)
 
     @property
     def accuracy(self) -> float:

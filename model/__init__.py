@@ -11,7 +11,8 @@ from .factor_graph import FactorGraph
 from .factors import Factor, SparseValues
 from .growth import GROWTHS, Growth, growth_named
 from .growth_log import GrowthEvent
-from .learning import TABLE_RATES, TEXT_RATES, Learner, Lesson, Rates
+from .learning import TABLE_RATES, TEXT_RATES, Learner, Rates
+from .lesson import Lesson
 from .motions import Motions, MotionSpec, Position
 from .slices import Slice, take_slice, window_graph
 from .variables import Variable

@@ -49,7 +49,7 @@ class Priors:
 
 
 class CognitiveMap:
-    """What the agent believes the world to be; it only ever grows.
+    """What the agent believes the world to be; it grows, and takes back only what it grew by mistake.
 
     Places are numbered as they are imagined. `sights` and `positions` are labelled domains. The tables hold
     sparse Dirichlet counts: `A_o` P(o | s) and `A_p` P(p | s), a row a place; `B_s` P(s' | s, a), row
@@ -266,16 +266,51 @@ class CognitiveMap:
         self._position_of.values[place] = index
         self._place_at.values[index] = place
         self.A_p.expect(place, index, self.priors.position)
-        for action, inverse in enumerate(self.motions.inverse):
-            there = int(self.position_beyond[index, action])
-            neighbour = -1 if there < 0 else int(self._place_at.values[there])
-            if action != self.motions.stay and neighbour >= 0:
-                self._link(place, action, neighbour)
-                self._link(neighbour, inverse, place)
+        for action, neighbour in self._neighbours(index):
+            self._link(place, action, neighbour)
+            self._link(neighbour, self.motions.inverse[action], place)
+
+    def _neighbours(self, index: int) -> list[tuple[int, int]]:
+        """The actions that lead from a position to one that has a place, and that place."""
+        ahead = [(action, there) for action, there in enumerate(self.position_beyond[index].tolist()) if there >= 0]
+        places = [(action, int(self._place_at.values[there])) for action, there in ahead]
+        return [(action, place) for action, place in places if action != self.motions.stay and place >= 0]
 
     def _link(self, place: int, action: int, neighbour: int) -> None:
         """What lies beyond a door has become a place of the map: its slot gets the name."""
         self.B_s.rename(self.row(place, action), ELSEWHERE, neighbour)
+
+    def unbind(self, place: int, *, step: int) -> None:
+        """Take a place off its position: the doors of its neighbours lead to nowhere known.
+
+        Raises:
+            CogmapError: there is no such place, or it has no position.
+        """
+        position = self.position(place)
+        if position is None:
+            raise CogmapError(f"map: place {place} has no position to lose")
+        index = int(self.position_index[place])
+        for action, neighbour in self._neighbours(index):
+            self.B_s.rename(self.row(place, action), neighbour, ELSEWHERE)
+            self.B_s.rename(self.row(neighbour, self.motions.inverse[action]), place, ELSEWHERE)
+        self.A_p.expect(place, index, 0.0)
+        self._place_at.values[index] = -1
+        self._position_of.values[place] = -1
+        self._log(step, "unbind", place, position)
+
+    def shrink(self, *, places: int, visits: int = 0, step: int) -> None:
+        """Drop the places after the first `places`, and the visits after the first `visits`.
+
+        They must have lost their positions, and nothing may be left that was learned of them: `retraction.retract`.
+        """
+        dropped = len(self.places) - places
+        self._visited.values[self.visited_places[visits:]] = False
+        self._visits.shrink(visits)
+        for table, rows in ((self.A_o, places), (self.A_p, places), (self.B_s, places * len(self.motions))):
+            table.shrink(rows)
+        for column in (self._position_of, self._visited, self._sensed, self._walked):
+            column.shrink(places)
+        self._log(step, "retract", dropped)
 
     def mark_visited(self, place: int) -> None:
         """Note that the agent was in `place`."""

@@ -31,6 +31,10 @@ class Column:
         self._length += 1
         return self._length - 1
 
+    def shrink(self, length: int) -> None:
+        """Keep the first `length` entries."""
+        self._length = length
+
     def restore(self, values: NDArray[np.generic]) -> None:
         """Take over `values`."""
         self._array = np.concatenate([values.astype(self._array.dtype), np.zeros_like(self._array[:8])])

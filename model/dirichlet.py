@@ -61,6 +61,12 @@ class SparseDirichlet:
             self._resize(max(self._rows, 2 * capacity), slots)
         return first
 
+    def shrink(self, rows: int) -> None:
+        """Keep the first `rows` rows."""
+        for array, empty in ((self._keys, EMPTY), (self._prior, 0.0), (self._evidence, 0.0)):
+            array[rows : self._rows] = empty
+        self._rows = rows
+
     def _resize(self, rows: int, slots: int) -> None:
         self._keys = _grown(self._keys, (rows, slots), EMPTY).astype(np.int64)
         self._prior = _grown(self._prior, (rows, slots), 0.0).astype(np.float64)

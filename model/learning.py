@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .cognitive_map import BLOCKED, OPEN, UNKNOWN, CognitiveMap
+from .errors import CogmapError
+from .lesson import Lesson
+from .retraction import Chapter, retract, sizes
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,34 +39,40 @@ TEXT_RATES = Rates(possible=(10.0, 7.0), impossible=(-10.0, -7.0), ceiling=10.0)
 """The paper's running text, which differs from its table."""
 
 
-@dataclass(frozen=True, slots=True)
-class Lesson:
-    """One change of a count.
+class Learner:
+    """Teaches a map; it can take back the last `memory` steps.
 
     Attributes:
-        table: `A_o`, `A_p` or `B_s`.
-        outcome: sight, position or next place, by number.
-        place: the place in whose column the count changed.
-        action: the action, for `B_s`.
-        amount: what was added to the count.
+        map: the map.
+        rates: counts a piece of evidence.
+        chapters: the last steps, each with what it changed.
     """
 
-    table: str
-    outcome: int
-    place: int
-    action: int | None
-    amount: float
+    __slots__ = ("_lessons", "chapters", "map", "rates")
 
-
-class Learner:
-    """Teaches a map; `lessons` lists what changed since it was last taken."""
-
-    __slots__ = ("_lessons", "map", "rates")
-
-    def __init__(self, map_: CognitiveMap, rates: Rates) -> None:
+    def __init__(self, map_: CognitiveMap, rates: Rates, *, memory: int = 1) -> None:
         self.map = map_
         self.rates = rates
+        self.chapters: deque[Chapter] = deque([Chapter(0, *sizes(map_))], maxlen=memory)
         self._lessons: list[Lesson] = []
+
+    def begin(self, step: int) -> None:
+        """Open the chapter of a time step."""
+        self.chapters.append(Chapter(step, *sizes(self.map)))
+
+    def take_back(self, since: int, *, step: int) -> None:
+        """Take back everything from time step `since` on; the present step begins anew.
+
+        Raises:
+            CogmapError: that is longer ago than it remembers.
+        """
+        wrong = [chapter for chapter in self.chapters if chapter.step >= since]
+        if not wrong or wrong[0].step != since:
+            raise CogmapError(f"learning: step {since} is not remembered; those since {self.chapters[0].step} are")
+        self._lessons += retract(self.map, wrong, step=step)
+        for _ in wrong:
+            self.chapters.pop()
+        self.begin(step)
 
     def take_lessons(self) -> tuple[Lesson, ...]:
         """What changed since the last call."""
@@ -91,7 +101,7 @@ class Learner:
         self._add(next_, previous, action, weight * forward)
         self._add(previous, next_, self.map.motions.inverse[action], weight * reverse)
         if weight > 0.5:
-            self.map.walked[previous, action] = True
+            self._note_door(previous, action, int(self.map.sensed[previous, action]), walked=True)
 
     def doors(self, place: int, open_: Sequence[bool], weight: float) -> None:
         """What is sensed of the doors of `place`.
@@ -117,6 +127,7 @@ class Learner:
 
     def forget(self, keep: float) -> None:
         """Let all evidence for transitions fade by the factor `keep`."""
+        self.chapters[-1].kept *= keep
         self.map.B_s.fade(slice(len(self.map.B_s)), keep)
 
     def _open(self, place: int, action: int, weight: float, before: int) -> None:
@@ -126,18 +137,18 @@ class Learner:
         if before == BLOCKED and beyond is not None:
             self._add(beyond, beyond, inverse, weight * reverse)
         if beyond is None:  # nothing to imagine there (yet): the door is forgotten, as in observed growth
-            self.map.sensed[place, action] = UNKNOWN
+            self._note_door(place, action, UNKNOWN)
             return
         forward, reverse = self.rates.imagined
         self._raise(beyond, place, action, weight * forward)
         if before != OPEN:
             self._raise(place, beyond, inverse, weight * reverse)
-        self.map.sensed[place, action] = OPEN
+        self._note_door(place, action, OPEN)
 
     def _shut(self, place: int, action: int, weight: float, *, changed: bool) -> None:
         forward, reverse = self.rates.impossible
         self._raise(place, place, action, -weight * forward)
-        self.map.sensed[place, action] = BLOCKED
+        self._note_door(place, action, BLOCKED)
         beyond = self.map.beyond(place, action)
         if beyond is None:
             return
@@ -157,6 +168,15 @@ class Learner:
         added = self.map.B_s.add(self.map.row(previous, action), next_, amount, most=self.rates.ceiling)
         self._note("B_s", next_, previous, action, added)
 
+    def _note_door(self, place: int, action: int, sensed: int, *, walked: bool = False) -> None:
+        before = int(self.map.sensed[place, action]), bool(self.map.walked[place, action])
+        if before == (sensed, walked or before[1]):
+            return
+        self.chapters[-1].doors.append((place, action, *before))
+        self.map.sensed[place, action], self.map.walked[place, action] = sensed, walked or before[1]
+
     def _note(self, table: str, outcome: int, place: int, action: int | None, amount: float) -> None:
         if amount != 0.0:
-            self._lessons.append(Lesson(table, outcome, place, action, amount))
+            lesson = Lesson(table, outcome, place, action, amount)
+            self._lessons.append(lesson)
+            self.chapters[-1].lessons.append(lesson)

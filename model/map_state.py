@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ def map_arrays(map_: CognitiveMap) -> Arrays:
     for name, column in map_.columns.items():
         arrays[f"map.{name}"] = column.values.copy()
     events = [
-        (event.step, KINDS.index(event.kind), event.index, _or(event.source), _or(event.action), event.label is None)
+        (event.step, KINDS.index(event.kind), event.index, _or(event.source), _or(event.action), _number(map_, event))
         for event in map_.growth
     ]
     arrays["growth"] = np.array(events, dtype=np.int64).reshape(-1, 6)
@@ -43,6 +43,8 @@ def restore_map(
     """
     _check_counts(arrays, len(sights), len(positions), len(map_.motions))
     _check_columns(arrays, len(arrays["A_o.keys"]), len(positions), len(map_.motions))
+    if arrays["growth"].ndim != 2 or not _within(arrays["growth"][:, 1], 0, len(KINDS)):
+        raise CogmapError("map: the log of growth has kinds that are none; save it again")
     for label in sights:
         map_.sights.add(label)
     for label in positions:
@@ -98,17 +100,15 @@ def _events(map_: CognitiveMap, rows: list[list[int]]) -> list[GrowthEvent]:
             step=step,
             kind=KINDS[kind],
             index=index,
-            label=None if unlabelled else _label(map_, KINDS[kind], index),
+            label=None if label < 0 else map_.sights[label] if KINDS[kind] == "sight" else map_.positions[label],
             source=None if source < 0 else source,
             action=None if action < 0 else action,
         )
-        for step, kind, index, source, action, unlabelled in rows
+        for step, kind, index, source, action, label in rows
     ]
 
 
-def _label(map_: CognitiveMap, kind: str, index: int) -> Hashable:
-    if kind == "sight":
-        return map_.sights[index]
-    if kind == "position":
-        return map_.positions[index]
-    return cast(Hashable, map_.position(index))
+def _number(map_: CognitiveMap, event: GrowthEvent) -> int:
+    """Number of the event's label in its domain, or -1."""
+    domain = map_.sights if event.kind == "sight" else map_.positions
+    return -1 if event.label is None else domain.index(event.label)

@@ -173,9 +173,10 @@ NOT_SAVED: dict[str, tuple[bytes, str]] = {
     "no schema": (headed({"format": "cogmap agent"}), "no header"),
     "a schema of words": (headed({"format": "cogmap agent", "schema": "new"}), "no header"),
     "an infinite schema": (headed('{"format": "cogmap agent", "schema": 1e999}'), "no header"),
-    "a newer schema": (headed({"format": "cogmap agent", "schema": 2}), "schema 2, newer than 1; update cogmap"),
-    "another format": (headed({"format": "other\nthing", "schema": 1}), "is a 'other.*thing', no saved agent"),
-    "a header alone": (headed({"format": "cogmap agent", "schema": 1}), "is damaged"),
+    "a newer schema": (headed({"format": "cogmap agent", "schema": 3}), "schema 3, newer than 2; update cogmap"),
+    "an older schema": (headed({"format": "cogmap agent", "schema": 1}), "schema 1, older than 2; explore"),
+    "another format": (headed({"format": "other\nthing", "schema": 2}), "is a 'other.*thing', no saved agent"),
+    "a header alone": (headed({"format": "cogmap agent", "schema": 2}), "is damaged"),
 }
 
 

@@ -34,6 +34,10 @@ def replayed(map_: CognitiveMap) -> CognitiveMap:
             assert copy.new_position(cast(Position, event.label), step=event.step) == event.index
         elif event.kind == "place":
             assert copy.new_place(position, step=event.step, source=event.source, action=event.action) == event.index
+        elif event.kind == "unbind":
+            copy.unbind(event.index, step=event.step)
+        elif event.kind == "retract":
+            copy.shrink(places=len(copy.places) - event.index, step=event.step)
         else:
             copy.bind(
                 event.index, cast(Position, event.label), step=event.step, source=event.source, action=event.action
