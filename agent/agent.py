@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..inference.filter import advance, begin
 from ..inference.message import Belief, Evidence
-from ..inference.rivals import Rivals, advance_rivals, certain_of, rivals_of
+from ..inference.rivals import DECISIVE, Rivals, advance_rivals, certain_of, rivals_of
 from ..model.cognitive_map import CognitiveMap
 from ..model.errors import CogmapError
 from ..model.factor_graph import FactorGraph
@@ -238,7 +238,7 @@ class Agent:
         )
         rivals = rivals.kept(rivals.since >= mapper.remembered)
         self._retracted = None
-        if len(rivals) and rivals.probability(rivals.best) >= self.settings.certainty:
+        if len(rivals) and rivals.probability(rivals.best) >= DECISIVE:
             self._change_mind(rivals, evidence)
             return
         belief = self._belief = replace(self.belief, doubt=rivals.doubt)

@@ -26,6 +26,10 @@ COINCIDENCE = 1e-2
 """Odds that a rival may gain while nothing contradicts the belief: a world in which new places look like old ones, in
 the same order, explains as much."""
 
+DECISIVE = 0.997
+"""Probability from which a rival is believed: more than one coincidence must speak for it, since one look-alike room
+proves nothing."""
+
 SURE = 1e12
 """Odds beyond which nothing is more certain."""
 

@@ -44,8 +44,8 @@ class Priors:
 
     sight: float = 1e-9
     position: float = 1.0
-    transition: float = 1e-4
-    door_floor: float = 1e-5
+    transition: float = 1e-6
+    door_floor: float = 1e-6
 
 
 class CognitiveMap:
