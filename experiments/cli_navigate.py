@@ -23,7 +23,7 @@ def navigate_command(
     look_ahead: LookAhead = 6,
     max_steps: MaxSteps = None,
     policies: Policies = "map_guided",
-    weight: Weight = 3.0,
+    weight: Weight = 8.0,
     jobs: Jobs = 1,
     json: Json = None,
 ) -> None:

@@ -45,8 +45,8 @@ def moved_while_exploring(name: str, seed: int, *, save: Path | None = None) -> 
 
 @pytest.mark.parametrize("name", ["3x3", "4x4", "donut"])
 def test_a_map_survives_being_moved_while_it_is_made(name: str, study: bool) -> None:
-    runs = [moved_while_exploring(name, seed) for seed in range(20 if study else 4)]
-    assert sum(right for _, right, _ in runs) >= 0.9 * len(runs)
+    runs = [moved_while_exploring(name, seed) for seed in range(20 if study else 8)]
+    assert sum(right for _, right, _ in runs) >= 0.85 * len(runs)
     assert any(record.retracted is not None for agent, _, _ in runs for record in agent.trace)
     assert np.mean([wrong for _, _, wrong in runs]) <= 10.0  # 7 to 14 when nothing was taken back
 

@@ -61,7 +61,7 @@ def test_a_sweep_of_ways(options: list[str]) -> None:
     assert result.exit_code == 0
     assert "reached 2/2" in result.stdout
     saved = json.loads(Path("n.json").read_text())
-    assert (saved["goal"], saved["weight"], saved["unexplored"]) == (8, 3.0, bool(options))
+    assert (saved["goal"], saved["weight"], saved["unexplored"]) == (8, 8.0, bool(options))
 
 
 def test_words_are_goals_too() -> None:

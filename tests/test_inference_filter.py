@@ -141,7 +141,7 @@ def test_being_moved_is_not_examined_where_it_would_be_dropped() -> None:
     map_ = random_map(np.random.default_rng(1))
     message = Message(np.array([0]), map_.position_index[[0]], np.ones(1))
     evidence = Evidence(4, True, 0, [True] * 5)
-    likely = advance(map_, message, evidence, FilterOptions(displacement=1e-12, support=0.5))
+    likely = advance(map_, message, evidence, FilterOptions(displacement=1e-15, support=0.5))
     assert not likely.examined
     assert likely.moved == 0.0
     assert 0.0 < likely.dropped < 1e-6
