@@ -10,6 +10,7 @@ from .cli_explore import explore_command
 from .cli_group import CogmapGroup
 from .cli_kidnap import kidnap_command
 from .cli_navigate import navigate_command
+from .cli_study import study_command
 from .cli_worlds import worlds_command
 
 app = typer.Typer(
@@ -44,6 +45,7 @@ app.command("worlds")(worlds_command)
 app.command("explore")(explore_command)
 app.command("navigate")(navigate_command)
 app.command("kidnap")(kidnap_command)
+app.command("study")(study_command)
 
 
 def main() -> None:

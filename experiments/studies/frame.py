@@ -94,7 +94,7 @@ STUDIES = {
         Study("donut", 20),
         Study("tolman", 10),
         Study("martinet", 40),
-        Study("insight", 20),
+        Study("insight", 40),
     )
 }
 
