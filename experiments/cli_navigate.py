@@ -11,6 +11,10 @@ from .cli_kidnap import Json, MaxSteps
 
 Goal = Annotated[str, typer.Option(metavar="LABEL", help="The label to go to; the agent is there when it stays.")]
 Unexplored = Annotated[bool, typer.Option("--unexplored", help="Set out in an unknown maze.")]
+Close = Annotated[
+    list[str] | None,
+    typer.Option(metavar="ROW,COLUMN", help="Close this room once the maze is explored; may be given several times."),
+]
 Weight = Annotated[float, typer.Option(help="W: log preference of the goal over all other sights, in nats.")]
 
 
@@ -24,6 +28,7 @@ def navigate_command(
     max_steps: MaxSteps = None,
     policies: Policies = "map_guided",
     weight: Weight = 8.0,
+    close: Close = None,
     jobs: Jobs = 1,
     json: Json = None,
 ) -> None:
@@ -35,13 +40,15 @@ def navigate_command(
     from ..worlds import load_world
     from .cli_progress import counting
     from .cli_table import show_lines
+    from .closing import check_closed, parse_rooms
     from .navigating import check_goal, navigate_many, parse_goal
     from .navigation import navigate_result
     from .output import check_outputs, write_json
 
     maze = load_world(world).maze
     settings = Settings(look_ahead=look_ahead, policies=policies)
-    label = parse_goal(maze, goal)
+    label, closed = parse_goal(maze, goal), parse_rooms(maze, close or [])
+    check_closed(maze, label, closed, known=not unexplored)
     check_goal(maze, label, weight)
     check_outputs([json])
     with counting(f"navigating in {maze.name}", runs or 1) as one_more:
@@ -54,11 +61,19 @@ def navigate_command(
             settings=settings,
             seed=seed,
             max_steps=max_steps,
+            closed=closed,
             jobs=jobs,
             on_done=one_more,
         )
     result = navigate_result(
-        maze, done, goal=label, known=not unexplored, weight=weight, settings=settings, max_steps=max_steps
+        maze,
+        done,
+        goal=label,
+        known=not unexplored,
+        weight=weight,
+        settings=settings,
+        max_steps=max_steps,
+        closed=closed,
     )
     show_lines(f"{maze.name}, goal {label}", _one(result) if runs is None else _many(result))
     if json is not None:

@@ -11,7 +11,8 @@ from typing import Any
 from ..agent import Settings, StepRecord
 from ..baselines import FrontierAgent
 from ..model.errors import CogmapError
-from ..worlds import GRID, Label, Maze, MazeEnv, Position, shortest_path
+from ..worlds import GRID, Label, Maze, MazeEnv, Position
+from .closing import check_closed, shortest
 from .exploring import checked_steps, draw_start
 from .pool import map_seeds
 from .session import Session, explored, unexplored
@@ -72,6 +73,7 @@ def navigate(
     settings: Settings | None = None,
     seed: int = 0,
     max_steps: int | None = None,
+    closed: Sequence[Position] = (),
 ) -> NavigateRun:
     """Let an agent go to a sight.
 
@@ -84,25 +86,30 @@ def navigate(
         settings: of the agent; static growth gets the number of rooms.
         seed: of everything random; start and exploring are those of `explore` with the same seed.
         max_steps: moves after which to give up exploring, and again navigating; `default_steps(maze)` unless given.
+        closed: rooms that are closed while it is moved, after exploring with everything open.
 
     Raises:
-        CogmapError: no room has the label, a weight that is not above 0, a negative seed, or `max_steps` below 1.
+        CogmapError: no room has the label, a weight that is not above 0, a negative seed, `max_steps` below 1, or
+            rooms that cannot be closed (see `check_closed`).
     """
     check_goal(maze, goal, weight)
+    check_closed(maze, goal, closed, known=known)
     most = checked_steps("navigate", maze, max_steps)
     if not known:
         session = unexplored("navigate", maze, settings=settings, seed=seed)
-        steps, shortest = _reach(session, goal, weight, most), _shortest(maze, session.start, goal)
+        steps, least = _reach(session, goal, weight, most), shortest(maze, session.start, goal)
         stood, frontier = _first(goal, session.agent.trace), frontier_to(maze, goal, seed=seed)
-        return NavigateRun(seed, session.start, steps is not None, steps, shortest, None, None, frontier, stood)
+        return NavigateRun(seed, session.start, steps is not None, steps, least, None, None, frontier, stood)
     session = explored("navigate", maze, settings=settings, seed=seed, most=most)
     if session.steps is None:
         return NavigateRun(seed, None, False, None, None, session.start)
-    room, before = session.displace(elsewhere=False), session.agent.steps
-    steps, shortest = _reach(session, goal, weight, most), _shortest(maze, room, goal)
+    room, before = session.displace(elsewhere=False, but=closed), session.agent.steps
+    for shut in closed:
+        session.world.close_room(shut)
+    steps, least = _reach(session, goal, weight, most), shortest(maze, room, goal, closed)
     stood = _first(goal, session.agent.trace[before:])
     return NavigateRun(
-        seed, room, steps is not None, steps, shortest, session.start, session.steps, steps_to_stand=stood
+        seed, room, steps is not None, steps, least, session.start, session.steps, steps_to_stand=stood
     )
 
 
@@ -143,6 +150,7 @@ def navigate_many(
     settings: Settings | None = None,
     seed: int = 0,
     max_steps: int | None = None,
+    closed: Sequence[Position] = (),
     jobs: int = 1,
     on_done: Callable[[], None] | None = None,
 ) -> list[NavigateRun]:
@@ -151,7 +159,7 @@ def navigate_many(
     Raises:
         CogmapError: `runs` is below 1, or what `navigate` and `map_tasks` raise.
     """
-    one = partial(_one, maze, goal, known, weight, settings, max_steps)
+    one = partial(_one, maze, goal, known, weight, settings, max_steps, tuple(closed))
     return map_seeds(one, runs=runs, seed=seed, jobs=jobs, on_done=on_done)
 
 
@@ -174,9 +182,12 @@ def _one(
     weight: float,
     settings: Settings | None,
     max_steps: int | None,
+    closed: tuple[Position, ...],
     seed: int,
 ) -> NavigateRun:
-    return navigate(maze, goal=goal, known=known, weight=weight, settings=settings, seed=seed, max_steps=max_steps)
+    return navigate(
+        maze, goal=goal, known=known, weight=weight, settings=settings, seed=seed, max_steps=max_steps, closed=closed
+    )
 
 
 def _reach(session: Session, goal: Label, weight: float, most: int) -> int | None:
@@ -195,7 +206,3 @@ def _reach(session: Session, goal: Label, weight: float, most: int) -> int | Non
 def _first(goal: Label, trace: Sequence[StepRecord]) -> int | None:
     """Steps before the sight was first seen."""
     return next((step for step, record in enumerate(trace) if record.sight == goal), None)
-
-
-def _shortest(maze: Maze, start: Position, goal: Label) -> int:
-    return min(len(shortest_path(maze, start, room)) - 1 for room in maze.rooms if maze.sights[room] == goal)

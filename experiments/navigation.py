@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ..agent import Settings
-from ..worlds import Label, Maze
+from ..worlds import Label, Maze, Position
 from .exploring import checked_steps
 from .navigating import WEIGHT, NavigateRun
 from .session import mean
@@ -22,6 +22,7 @@ def navigate_result(
     weight: float = WEIGHT,
     settings: Settings,
     max_steps: int | None = None,
+    closed: Sequence[Position] = (),
 ) -> dict[str, Any]:
     """World, agent, goal, settings, runs and summary, as plain JSON values.
 
@@ -50,6 +51,7 @@ def navigate_result(
         "goal": goal,
         "weight": weight,
         "unexplored": not known,
+        **({"closed": [list(room) for room in closed]} if closed else {}),
         "settings": fitted(settings, maze).to_dict(),
         "runs": [run.to_dict() for run in runs],
         "summary": summary,

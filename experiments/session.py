@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,10 +37,13 @@ class Session:
         row, column = self.world.position
         return self.agent.map.place_at((row - self.start[0], column - self.start[1]))
 
-    def displace(self, *, elsewhere: bool) -> Position:
-        """Move it to a random room without a word, `elsewhere` to another one than it is in; answers with the room."""
+    def displace(self, *, elsewhere: bool, but: Collection[Position] = ()) -> Position:
+        """Move it to a random room without a word, `elsewhere` to another one than it is in; answers with the room.
+
+        The rooms of `but` are left out.
+        """
         here = self.world.position
-        rooms = [room for room in self.world.maze.rooms if not elsewhere or room != here]
+        rooms = [room for room in self.world.maze.rooms if room not in but and (not elsewhere or room != here)]
         room = rooms[int(self.rng.integers(len(rooms)))]
         self.world.displace(room)
         return room

@@ -130,3 +130,30 @@ def test_the_defaults_are_those_of_the_settings() -> None:
         for name in ("look_ahead", "policies"):
             assert inspect.signature(command).parameters[name].default == getattr(Settings(), name)
     assert inspect.signature(navigate_command).parameters["weight"].default == WEIGHT
+
+
+def test_a_room_can_be_closed_before_it_sets_out(tmp_path: Path) -> None:
+    saved = tmp_path / "ways.json"
+    done = cogmap("navigate", "donut", "--goal", 12, "--runs", 2, "--close", "0,2", "--look-ahead", 12, "--json", saved)
+    assert done.exit_code == 0, done.output
+    result = json.loads(saved.read_text())
+    assert result["closed"] == [[0, 2]]
+    assert result["summary"]["reached"] == 2
+    assert all(run["start"] != [0, 2] for run in result["runs"])
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        (["--close", "9,9"], "has no room at"),
+        (["--close", "0"], "is no room; give ROW,COLUMN"),
+        (["--close", "a,b"], "is no room; give ROW,COLUMN"),
+        (["--close", "2,2"], "there is no way from"),
+        (["--close", "0,1", "--unexplored"], "sets out unexplored"),
+    ],
+)
+def test_closures_that_cannot_be(options: list[str], complaint: str) -> None:
+    refused = cogmap("navigate", "3x3", "--goal", 8, *options)
+    assert refused.exit_code == 2
+    assert complaint in " ".join(refused.output.split())
+    assert "Traceback" not in refused.output

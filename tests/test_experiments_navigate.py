@@ -42,7 +42,7 @@ def test_exploring_first_is_that_of_explore() -> None:
 
 def test_the_shortest_path_is_to_the_nearest_room_with_the_sight() -> None:
     maze = parse_maze("7 0 1 2 7", name="corridor")
-    assert [module._shortest(maze, room, 7) for room in maze.rooms] == [0, 1, 2, 1, 0]
+    assert [module.shortest(maze, room, 7) for room in maze.rooms] == [0, 1, 2, 1, 0]
 
 
 def test_nearest_frontier_search_stands_on_the_goal() -> None:
