@@ -108,9 +108,7 @@ def navigate(
         session.world.close_room(shut)
     steps, least = _reach(session, goal, weight, most), shortest(maze, room, goal, closed)
     stood = _first(goal, session.agent.trace[before:])
-    return NavigateRun(
-        seed, room, steps is not None, steps, least, session.start, session.steps, steps_to_stand=stood
-    )
+    return NavigateRun(seed, room, steps is not None, steps, least, session.start, session.steps, steps_to_stand=stood)
 
 
 def check_goal(maze: Maze, goal: Label, weight: float = WEIGHT) -> None:
