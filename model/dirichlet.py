@@ -115,6 +115,10 @@ class SparseDirichlet:
         keys = self._keys[row].tolist()
         return float(self._evidence[row, keys.index(key)]) if key in keys else 0.0
 
+    def counts(self, row: int) -> dict[int, float]:
+        """Evidence of `row` by outcome, prior left out."""
+        return dict(zip(self._keys[row].tolist(), self._evidence[row].tolist(), strict=True))
+
     def fade(self, rows: Ints | slice, keep: float) -> None:
         """Multiply the evidence of `rows` by `keep`, in [0, 1]: what was learned long ago fades."""
         self._evidence[rows] *= keep

@@ -113,10 +113,20 @@ class Learner:
             if action == self.map.motions.stay:
                 continue
             before = int(self.map.sensed[place, action])
+            if before == (OPEN if is_open else BLOCKED) and self._settled(place, action, weight, is_open=is_open):
+                continue
             if not is_open:
                 self._shut(place, action, weight, changed=before != BLOCKED)
             else:
                 self._open(place, action, weight, before)
+
+    def _settled(self, place: int, action: int, weight: float, *, is_open: bool) -> bool:
+        """Whether the counts of a door say what is seen already, and nothing else."""
+        counts = self.map.B_s.counts(self.map.row(place, action))
+        blocked = counts.pop(place, 0.0)
+        if is_open:
+            return blocked == 0.0 and sum(counts.values()) >= weight * self.rates.imagined[0]
+        return blocked >= -weight * self.rates.impossible[0] and not any(counts.values())
 
     def recall(self, place: int) -> None:
         """Teach a new place what its neighbours' doors have shown of it already: those that are blocked."""
