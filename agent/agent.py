@@ -119,13 +119,17 @@ class Agent:
             places: by number of the place in the map, such as `map.place_at(position)`.
 
         Raises:
-            CogmapError: a preference that is not finite, or a place that the map does not have.
+            CogmapError: no mapping, a preference that is no finite number, or a place that the map does not have.
         """
+        for given in (sights, places):
+            if not isinstance(given, Mapping | None):  # pyright: ignore[reportUnnecessaryIsInstance]
+                kind = type(given).__name__
+                raise CogmapError(f"agent: preferences are a {kind}; give a mapping to log preferences in nats")
         sights, places = dict(sights or {}), dict(places or {})
         for wanted, value in (*sights.items(), *places.items()):
-            if not np.isfinite(value):
+            if not (isinstance(value, int | float | np.number) and np.isfinite(value)):  # pyright: ignore[reportUnnecessaryIsInstance]
                 raise CogmapError(
-                    f"agent: preference {value} of {wanted!r} is not finite; give a log preference in nats"
+                    f"agent: preference {value!r} of {wanted!r} is not a finite number; give a log preference in nats"
                 )
         for place in places:
             if place not in self.map.places:

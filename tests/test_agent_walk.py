@@ -87,7 +87,9 @@ def test_motions_that_make_no_sense(motions: Any) -> None:
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
 def test_preferences_must_be_finite(value: float) -> None:
     agent = Agent(GRID, seed=0)
-    with pytest.raises(CogmapError, match=r"agent: preference .* of 'hall' is not finite; give a log preference"):
+    with pytest.raises(
+        CogmapError, match=r"agent: preference .* of 'hall' is not a finite number; give a log preference"
+    ):
         agent.prefer({"kitchen": 1.0, "hall": value})
     agent.step(PLAIN)
     assert agent.trace[-1].G["utility"] == 0.0
@@ -300,7 +302,16 @@ def test_it_goes_to_a_preferred_place_and_stays(name: str, tmp_path: Path) -> No
     assert agent.map.motions.names[action] == "stay"
 
 
-def test_a_place_that_is_not_there_cannot_be_preferred() -> None:
+@pytest.mark.parametrize(
+    ("wanted", "complaint"),
+    [
+        ({"places": {99: 1.0}}, "no place 99"),
+        ({"places": {0: None}}, "preference None of 0"),
+        ({"sights": {0: "much"}}, "preference 'much' of 0"),
+        ({"sights": [1]}, "preferences are a list"),
+    ],
+)
+def test_what_cannot_be_preferred_is_refused(wanted: dict[str, Any], complaint: str) -> None:
     agent = walked(load_world("3x3"), 3)
-    with pytest.raises(CogmapError, match="no place 99"):
-        agent.prefer(places={99: 1.0})
+    with pytest.raises(CogmapError, match=complaint):
+        agent.prefer(**wanted)

@@ -8,7 +8,6 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
 import pytest
 from cogmap.agent import Agent, Settings
@@ -16,21 +15,13 @@ from cogmap.experiments.cli import app
 from cogmap.experiments.cli_explore import explore_command
 from cogmap.experiments.cli_spark import sparkline
 from cogmap.worlds import format_maze, hall
+from command_line import cogmap
 from typer.testing import CliRunner
 
 COMMAND = [sys.executable, "-c", "from cogmap.experiments.cli import main; main()"]
 
 
-def cogmap(*args: object) -> Any:
-    result: Any = CliRunner().invoke(app, [str(arg) for arg in args])
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result
-
-
-@pytest.fixture(autouse=True)
-def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+pytestmark = pytest.mark.usefixtures("empty_folder")
 
 
 def test_one_walk_is_shown_and_drawn() -> None:

@@ -4,27 +4,15 @@ import inspect
 import json
 import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.experiments.cli import app
 from cogmap.experiments.cli_kidnap import kidnap_command
 from cogmap.experiments.cli_navigate import navigate_command
 from cogmap.experiments.navigating import WEIGHT
-from typer.testing import CliRunner
+from command_line import cogmap
 
-
-def cogmap(*args: object) -> Any:
-    result: Any = CliRunner().invoke(app, [str(arg) for arg in args])
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result
-
-
-@pytest.fixture(autouse=True)
-def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+pytestmark = pytest.mark.usefixtures("empty_folder")
 
 
 def test_one_kidnapping_is_told() -> None:

@@ -3,26 +3,14 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 from cogmap.agent import Agent
-from cogmap.experiments.cli import app
 from cogmap.experiments.studies import frame
 from cogmap.experiments.studies.donut import SETTINGS
-from typer.testing import CliRunner
+from command_line import cogmap
 
-
-def cogmap(*args: object) -> Any:
-    result: Any = CliRunner().invoke(app, [str(arg) for arg in args])
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return result
-
-
-@pytest.fixture(autouse=True)
-def _in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("COLUMNS", "80")
+pytestmark = pytest.mark.usefixtures("empty_folder")
 
 
 def test_a_study_leaves_its_rows_and_figures() -> None:

@@ -8,7 +8,6 @@ from functools import partial
 
 from ...agent import Settings
 from ...baselines.habit import HabitAgent
-from ...model.errors import CogmapError
 from ...worlds import GRID, MazeEnv
 from ..pool import map_tasks
 from .insight_rows import RATS, WANDER, InsightResult, InsightRow, route_3_first, summary
@@ -20,6 +19,7 @@ from .tolman_maze import (
     B,
     TolmanRun,
     agent_run,
+    check_counts,
     choice_after,
     new_agent,
     new_world,
@@ -58,9 +58,7 @@ def insight_study(
     Raises:
         CogmapError: `agents`, `runs` or `jobs` below 1, or a negative seed.
     """
-    for name, number in (("agents", agents), ("runs", runs)):
-        if number < 1:
-            raise CogmapError(f"insight: {name} is {number}; use 1 or more")
+    check_counts("insight", agents=agents, runs=runs)
     one = partial(_pair, settings or SETTINGS, runs)
     pairs = map_tasks(one, range(seed, seed + agents), jobs=jobs, on_done=on_done)
     return InsightResult(tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs))
@@ -97,8 +95,9 @@ def _control(runs: int, seed: int) -> InsightRow:
     habit.explore = 0.1
 
     def one_run(world: MazeEnv) -> TolmanRun:
+        """From the start; with B closed it does what it is used to."""
         if world.closed_rooms:
-            habit.explore = 0.0  # what it does is what it is used to
+            habit.explore = 0.0
         habit.restart()
         path, reached_at = walk(habit, world)
         return TolmanRun(next(iter(world.closed_rooms), None), path, reached_at)

@@ -13,7 +13,6 @@ from functools import partial
 import numpy as np
 
 from ...agent import Agent, Settings
-from ...model.errors import CogmapError
 from ...worlds import Door, MazeEnv, Position
 from ..pool import map_tasks
 from .intervals import Interval
@@ -28,6 +27,7 @@ from .tolman_maze import (
     STAY,
     A,
     B,
+    check_counts,
     new_agent,
     new_world,
     set_closed,
@@ -67,9 +67,7 @@ def martinet_study(
     Raises:
         CogmapError: `agents`, `days` or `jobs` below 1, or a negative seed.
     """
-    for name, number in (("agents", agents), ("days", days)):
-        if number < 1:
-            raise CogmapError(f"martinet: {name} is {number}; use 1 or more")
+    check_counts("martinet", agents=agents, days=days)
     one = partial(_agent, settings or SETTINGS, days)
     rows = map_tasks(one, range(seed, seed + agents), jobs=jobs, on_done=on_done)
     return MartinetResult(tuple(rows), days)

@@ -8,7 +8,6 @@ from functools import partial
 from typing import Any
 
 from ...agent import Settings
-from ...model.errors import CogmapError
 from ..pool import map_tasks
 from .shares import Share, wilson
 from .tolman_maze import (
@@ -20,6 +19,7 @@ from .tolman_maze import (
     STEPS,
     TolmanRun,
     agent_run,
+    check_counts,
     new_agent,
     new_world,
     set_closed,
@@ -100,9 +100,7 @@ def tolman_study(
         CogmapError: `agents`, `runs` or `jobs` below 1, a negative seed, or a bad value of the knob.
     """
     settings = settings or SETTINGS
-    for name, number in (("agents", agents), ("runs", runs)):
-        if number < 1:
-            raise CogmapError(f"tolman: {name} is {number}; use 1 or more")
+    check_counts("tolman", agents=agents, runs=runs)
     own = float(getattr(settings, KNOB))
     others = [replace(settings, **{KNOB: value}) for value in sorted(set(knob) - {own})]
     few = range(seed, seed + min(agents, KNOB_AGENTS))

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ...agent import Agent, Settings
-from ...model import Priors
+from ...model import CogmapError, Priors
 from ...worlds import GRID, MAZES, Door, Label, MazeEnv, Position, shortest_path
 from ..walkers import Walker
 
@@ -163,6 +163,17 @@ def choice_after(runs: Sequence[TolmanRun]) -> Choice | None:
             again += at == START and to in BRANCHES
         steps += 1
     return None
+
+
+def check_counts(study: str, **counts: int) -> None:
+    """Refuse to do something less than once.
+
+    Raises:
+        CogmapError: a count below 1.
+    """
+    for name, number in counts.items():
+        if number < 1:
+            raise CogmapError(f"{study}: {name} is {number}; use 1 or more")
 
 
 def new_agent(settings: Settings, seed: int) -> Agent:
