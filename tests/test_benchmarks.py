@@ -56,6 +56,21 @@ def test_ablations(tmp_path: Path) -> None:
     assert all(row["runs"] == 1 and row["completed"] == 1 for row in result["rows"])
 
 
+@pytest.mark.parametrize(
+    ("measure", "maze", "variants"),
+    [("kidnap", "random12_4", 1), ("doors", "random12_4", 2), ("exploring", "3x3", 3), ("search", "3x3", 2)],
+)
+def test_moves(measure: str, maze: str, variants: int, tmp_path: Path) -> None:
+    printed, result = measured("moves.py", tmp_path, measure, "--mazes", maze, "--runs", "1")
+    assert [row["maze"] for row in result["rows"]] == [maze] * variants
+    assert maze in printed
+    for row in result["rows"]:
+        assert all(row[count] in (0, 1) for count in ("recovered", "intact", "right") if count in row)
+    if measure == "search":
+        assert result["rows"][0]["labels"] == result["rows"][0]["rooms"]  # each room of 3x3 has its own
+        assert 4.0 <= result["rows"][0]["rooms"] < 6.0
+
+
 def test_unknown_names_are_refused(tmp_path: Path) -> None:
     for arguments in (["discounts"], ["rates", "--mazes", "5x5"]):
         command = [sys.executable, str(BENCHMARKS / "ablations.py"), *arguments]
@@ -64,7 +79,7 @@ def test_unknown_names_are_refused(tmp_path: Path) -> None:
         assert arguments[-1] in done.stderr
 
 
-@pytest.mark.parametrize("name", ["step_time.py", "inference.py", "ablations.py"])
+@pytest.mark.parametrize("name", ["step_time.py", "inference.py", "ablations.py", "moves.py"])
 def test_bad_arguments_are_refused(name: str) -> None:
     done = subprocess.run([sys.executable, str(BENCHMARKS / name), "--runs", "many"], capture_output=True, check=False)
     assert done.returncode == 2
