@@ -17,15 +17,16 @@ from ..inference.rivals import DECISIVE, Rivals, advance_rivals, certain_of, riv
 from ..model.cognitive_map import CognitiveMap
 from ..model.errors import CogmapError
 from ..model.factor_graph import FactorGraph
+from ..model.labels import decode, encode
 from ..model.map_state import map_arrays, restore_map
 from ..model.motions import Motions, MotionSpec
 from ..model.slices import Slice, take_slice, window_graph
 from ..planning import Plan, plan
 from ..planning.horizon import Preferences, cut_reach
-from .labels import decode, encode
 from .mapper import Mapper
 from .past import past_state, restore_past, restore_rivals, rivals_state
 from .perception import perceive
+from .remembered import Choice, Wishes, choice_state, restore_choice
 from .settings import Settings
 from .state import Arrays, belief_state, restore_belief, restore_window, window_state
 from .trace import StepRecord
@@ -69,6 +70,7 @@ class Agent:
         self._pending = 0
         self._belief: Belief | None = None
         self._plan: Plan | None = None
+        self._choice: Choice | None = None
         self._steps = 0
         self._action: int | None = None
         self._open: tuple[bool, ...] = ()
@@ -99,10 +101,16 @@ class Agent:
 
     @property
     def plan(self) -> Plan:
-        """What it considered at the last step, and what it chose."""
+        """What it considered at the last step, and what it chose; worked out again where it was loaded."""
         if self._plan is None:
-            raise CogmapError("agent: it has planned nothing yet; call step(observation) first")
+            choice = self._last_choice()
+            self._plan = choice.of(self._planned(self._open, choice.wishes, np.random.default_rng(0)))
         return self._plan
+
+    @property
+    def wishes(self) -> Wishes:
+        """The preferences that were in force at the last choice."""
+        return self._last_choice().wishes
 
     @property
     def graph(self) -> FactorGraph:
@@ -192,6 +200,7 @@ class Agent:
             "rivals": rivals_state(self._rivals),
             **past_state(self._mapper),
             "window": window,
+            "choice": choice_state(self._choice),
         }
         return header, {**map_arrays(self.map), **belief_arrays, **window_arrays}
 
@@ -213,6 +222,7 @@ class Agent:
         restore_past(agent._mapper, header)
         agent._belief = restore_belief(header["belief"], arrays)
         agent._window.extend(restore_window(header["window"], arrays))
+        agent._choice = restore_choice(header.get("choice"))  # files of before have none
         return agent
 
     def __repr__(self) -> str:
@@ -292,6 +302,18 @@ class Agent:
         self._mapper.learn(self.belief, evidence, step=self._steps)
 
     def _choose(self, open_: tuple[bool, ...]) -> None:
+        wishes = Wishes(self._goals, self._goal_places)
+        self._plan = self._planned(open_, wishes, self._rng)
+        self._choice = Choice(wishes, tuple(self._plan.policy.tolist()))
+
+    def _last_choice(self) -> Choice:
+        if self._choice is not None:
+            return self._choice
+        if self._steps:
+            raise CogmapError("agent: the file has no last choice, an earlier version wrote it; call step(observation)")
+        raise CogmapError("agent: it has planned nothing yet; call step(observation) first")
+
+    def _planned(self, open_: tuple[bool, ...], wishes: Wishes, rng: np.random.Generator) -> Plan:
         settings = self.settings
         places, q = self.belief.message.by_place
         reach = cut_reach(
@@ -300,27 +322,27 @@ class Agent:
             q,
             open_=open_,
             look_ahead=settings.look_ahead,
-            preferences=self._preferences(),
+            preferences=self._preferences(wishes),
             discount=settings.discount,
             information_weight=settings.information_weight,
         )
-        self._plan = plan(
+        return plan(
             reach,
             generator=settings.policies,
             precision=settings.precision,
             choice=settings.choice,
-            rng=self._rng,
+            rng=rng,
             beam=settings.beam,
         )
 
-    def _preferences(self) -> Preferences:
+    def _preferences(self, wishes: Wishes) -> Preferences:
         weight = self.settings.goal_weight
         sights: dict[int, float] = {}
-        for label, value in self._goals.items():
+        for label, value in wishes.sights.items():
             known = self.map.sights.find(label)
             key = -1 if known is None else known
             sights[key] = max(sights.get(key, -np.inf), weight * value)
-        places = {place: weight * value for place, value in self._goal_places.items()}
+        places = {place: weight * value for place, value in wishes.places.items()}
         return Preferences(sights=sights, places=places, collision_cost=self.settings.collision_cost)
 
     def _record(self, label: Hashable, open_: tuple[bool, ...], grown: int) -> None:

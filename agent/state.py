@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ..inference.message import Belief, Message
 from ..model.errors import CogmapError
+from ..model.labels import decode, encode
 from ..model.slices import Slice
-from .labels import decode, encode
 
 Arrays = dict[str, NDArray[Any]]
 

@@ -9,6 +9,7 @@ import tempfile
 import tokenize
 import zipfile
 import zlib
+from importlib.metadata import PackageNotFoundError, version
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,7 +35,7 @@ def save(agent: Agent, path: str | PathLike[str]) -> None:
         CogmapError: a label or a setting cannot be written, or the folder cannot be.
     """
     header, arrays = agent.state()
-    header = {"format": FORMAT, "schema": SCHEMA, **header}
+    header = {"format": FORMAT, "schema": SCHEMA, "version": _version(), **header}
     packed = np.frombuffer(_json(header).encode(), dtype=np.uint8)
     target = Path(path)
     try:
@@ -71,6 +72,22 @@ def load(path: str | PathLike[str]) -> Agent:
     except (AttributeError, ArithmeticError, LookupError, TypeError, ValueError) as error:
         raise CogmapError(f"load: {path} is damaged ({type(error).__name__}: {error}); save the agent again") from error
     return agent
+
+
+def read_header(path: str | PathLike[str]) -> dict[str, Any]:
+    """What the file says of itself besides its arrays: `schema`, `version` of cogmap (if it says so), `settings`, ...
+
+    Raises:
+        CogmapError: no such file, no saved agent, truncated, or of another schema.
+    """
+    return _header(Path(path), _read(Path(path)))
+
+
+def _version() -> str | None:
+    try:
+        return version("cogmap")
+    except PackageNotFoundError:
+        return None
 
 
 def _json(header: dict[str, Any]) -> str:

@@ -11,10 +11,13 @@ from .factor_graph import FactorGraph
 from .factors import Factor, SparseValues
 from .growth import GROWTHS, Growth, growth_named
 from .growth_log import GrowthEvent
+from .growth_table import GrownPlace, GrowthDifference, growth_between, growth_table
 from .learning import TABLE_RATES, TEXT_RATES, Learner, Rates
 from .lesson import Lesson
+from .map_tables import map_table
 from .motions import Motions, MotionSpec, Position
 from .slices import Slice, take_slice, window_graph
+from .tables import LabelledTable, labelled, table
 from .variables import Variable
 
 __all__ = [
@@ -31,8 +34,11 @@ __all__ = [
     "Domain",
     "Factor",
     "FactorGraph",
+    "GrownPlace",
     "Growth",
+    "GrowthDifference",
     "GrowthEvent",
+    "LabelledTable",
     "LearnableTable",
     "Learner",
     "Lesson",
@@ -45,7 +51,12 @@ __all__ = [
     "SparseDirichlet",
     "SparseValues",
     "Variable",
+    "growth_between",
     "growth_named",
+    "growth_table",
+    "labelled",
+    "map_table",
+    "table",
     "take_slice",
     "window_graph",
 ]

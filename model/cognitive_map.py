@@ -18,6 +18,9 @@ from .motions import Motions, Position
 
 if TYPE_CHECKING:
     from networkx import MultiDiGraph
+    from pandas import DataFrame
+
+    from .tables import LabelledTable
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -193,6 +196,27 @@ class CognitiveMap:
         from .map_graph import map_graph
 
         return map_graph(self)
+
+    def to_dot(self) -> str:
+        """The map as Graphviz source; see `map_graph.map_dot`."""
+        from .map_graph import map_dot
+
+        return map_dot(self)
+
+    def to_json(self, *, indent: int | None = None) -> str:
+        """The map as JSON, in networkx' node-link layout; see `map_graph.map_node_link`."""
+        from .map_graph import map_json
+
+        return map_json(self, indent=indent)
+
+    def table(
+        self, name: str, *, action: str | int | None = None, places: Sequence[int] | None = None
+    ) -> DataFrame | LabelledTable:
+        """`A_o`, `A_p`, or `B_s` of one action, with labels on both axes; see `map_tables.map_table`."""
+        from .map_tables import map_table
+        from .tables import table
+
+        return table(map_table(self, name, action=action, places=places))
 
     def __repr__(self) -> str:
         seen = int(self.visited.sum())

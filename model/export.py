@@ -11,16 +11,20 @@ if TYPE_CHECKING:
     from .variables import Variable
 
 
+LONGEST = 3000
+"""Characters of one text: Graphviz reads no string of more than 16384 bytes, and one of these takes five at most."""
+
+
 def to_networkx(graph: FactorGraph) -> nx.Graph[Any]:
     """The bipartite graph of variables (by name) and factors (by label).
 
     Variable nodes carry `bipartite=0, node="variable", domain, time, observed, evidence`; factor nodes
     `bipartite=1, node="factor", name, kind, scope, shape, equation`; an edge carries `axis`, the axis of
-    the factor's values that is the variable. All nodes carry `label`.
+    the factor's values that is the variable. All nodes carry `label`; the graph carries the `equation` of it all.
     """
     import networkx as nx
 
-    result: nx.Graph[Any] = nx.Graph()
+    result: nx.Graph[Any] = nx.Graph(equation=equation(graph))
     for variable in graph.variables:
         result.add_node(
             variable.name,
@@ -78,8 +82,10 @@ def equation(graph: FactorGraph, *, most_terms: int | None = None) -> str:
 
 
 def quoted(text: str) -> str:
-    """A Graphviz double-quoted string that shows `text` exactly, whatever it holds."""
+    """A Graphviz double-quoted string that shows `text` exactly, whatever it holds; the first `LONGEST` of it."""
+    text = text if len(text) <= LONGEST else text[: LONGEST - 1] + "…"
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\0", "")
+    escaped = escaped.replace("&", "&amp;")  # Graphviz reads the entities of HTML in every label
     return '"' + escaped.replace("\r", "").replace("\n", "\\n") + '"'
 
 

@@ -17,6 +17,9 @@ from .variables import Variable
 
 if TYPE_CHECKING:
     import networkx as nx
+    from pandas import DataFrame
+
+    from .tables import LabelledTable
 
 
 class FactorGraph:
@@ -168,5 +171,56 @@ class FactorGraph:
         """Graphviz source; see `export.to_dot`."""
         return export.to_dot(self)
 
+    def to_dict(self) -> dict[str, Any]:
+        """The graph as plain JSON values; see `graph_json.graph_to_dict`."""
+        from .graph_json import graph_to_dict
+
+        return graph_to_dict(self)
+
+    def to_json(self, *, indent: int | None = None) -> str:
+        """The graph as JSON text, with every digit; see `graph_json.graph_to_dict`."""
+        from .graph_json import graph_to_json
+
+        return graph_to_json(self, indent=indent)
+
+    @classmethod
+    def from_dict(cls, values: Mapping[str, Any]) -> FactorGraph:
+        """The graph that `to_dict` took apart: `same_as` the first."""
+        from .graph_json import graph_from_dict
+
+        return graph_from_dict(values)
+
+    @classmethod
+    def from_json(cls, text: str) -> FactorGraph:
+        """The graph that `to_json` wrote: `same_as` the first."""
+        from .graph_json import graph_from_json
+
+        return graph_from_json(text)
+
+    def same_as(self, other: FactorGraph) -> bool:
+        """Whether variables, factors and evidence are the same to the last digit; see `graph_json.same_graph`."""
+        from .graph_json import same_graph
+
+        return same_graph(self, other)
+
+    def __eq__(self, other: object) -> bool:
+        return self.same_as(other) if isinstance(other, FactorGraph) else NotImplemented
+
+    def table(self, name: str) -> DataFrame | LabelledTable:
+        """The values of the factor with that label or name, with labels on both axes; see `tables.table`."""
+        from .tables import table
+
+        return table(self.factor_named(name))
+
     def __repr__(self) -> str:
         return export.equation(self, most_terms=12)
+
+    def _repr_html_(self) -> str:
+        from .graph_html import graph_html
+
+        return graph_html(self)
+
+    def _repr_svg_(self) -> str | None:
+        from .graph_svg import graph_svg
+
+        return graph_svg(self)

@@ -64,7 +64,7 @@ def test_quoted_text_is_one_graphviz_string(text):
     token = quoted(text)
     assert re.fullmatch(r'"(?:[^"\\]|\\["\\n])*"', token)
     shown = re.sub(r"\\(.)", lambda m: "\n" if m[1] == "n" else m[1], token[1:-1])
-    assert shown == text.replace("\0", "").replace("\r", "")
+    assert shown.replace("&amp;", "&") == text.replace("\0", "").replace("\r", "")
 
 
 @given(st.text(min_size=1), st.text(min_size=1), st.text())
