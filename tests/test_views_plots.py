@@ -17,11 +17,25 @@ from cogmap.views import (
     plot_maze,
     sight_colour,
 )
+from cogmap.views.colours import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, against, contrast, ink_on
 from cogmap.views.maze_plot import LANE, lanes
 from cogmap.worlds import GRID, MAZES, label_colour, parse_maze
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib import pyplot as plt
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, Rectangle
+from pictures import THEMES
+
+MAZE = MAZES["tolman"].sights
+OKABE = (BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION)
+
+
+def rooms_of(ax: Axes) -> list[Rectangle]:
+    return [patch for patch in ax.patches if isinstance(patch, Rectangle)]
 
 
 @pytest.fixture(scope="module")
@@ -34,6 +48,32 @@ def agent() -> Agent:
 @pytest.mark.parametrize("label", [0, 5, 23, 24, 1000, "red", "日本"])
 def test_colours_are_those_of_the_world(label: int | str) -> None:
     assert tuple(round(255 * part) for part in sight_colour(label)) == label_colour(label)
+
+
+@given(st.one_of(st.integers(), st.text(max_size=5)))
+def test_every_label_can_be_read_on_its_colour(label: int | str) -> None:
+    colour = sight_colour(label)
+    assert contrast(to_rgb(ink_on(colour)), colour) >= 4.5
+    assert sight_colour(label) == colour
+
+
+def test_sights_of_the_first_maze_are_colours_of_their_own() -> None:
+    assert len({sight_colour(label) for label in range(24)}) == 24
+
+
+def test_contrast_is_that_of_the_standard() -> None:
+    assert contrast((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)) == pytest.approx(21.0)
+    assert contrast(to_rgb("#767676"), (1.0, 1.0, 1.0)) == pytest.approx(4.54, abs=0.01)  # the classic border case
+    assert all(contrast(against(colour, paper), paper) >= 3.0 for colour in OKABE for paper in ((0, 0, 0), (1, 1, 1)))
+
+
+@pytest.mark.parametrize("theme", THEMES)
+def test_the_same_maze_has_the_same_colours(theme: str) -> None:
+    with plt.style.context(theme):
+        one, other = (plot_maze(dict(sights)) for sights in (MAZE, reversed(MAZE.items())))
+    floors = [{patch.get_xy(): patch.get_facecolor()[:3] for patch in rooms_of(ax)} for ax in (one, other)]
+    assert floors[0] == floors[1]
+    assert all(floors[0][column - 0.5, row - 0.5] == sight_colour(label) for (row, column), label in MAZE.items())
 
 
 def test_any_label_has_a_colour() -> None:
@@ -57,9 +97,29 @@ def test_standing_still_is_no_line() -> None:
 def test_the_path_goes_from_black_to_white() -> None:
     ax = plot_maze(MAZES["3x3"].sights, path=[(0, 0), (0, 1), (0, 2), (1, 2)])
     line = [part for part in ax.collections if isinstance(part, LineCollection)][-1]
-    shades = line.get_colors()
-    assert list(shades[0]) == [0, 0, 0, 1]
-    assert list(shades[-1]) == [1, 1, 1, 1]
+    shades = np.asarray(line.get_colors())[:, 0]
+    assert shades[0] == 0.0
+    assert shades[-1] == 1.0
+    assert (np.diff(shades) > 0.0).all()
+
+
+@pytest.mark.parametrize("floor", range(24))
+def test_a_path_of_any_shade_shows_on_any_floor(floor: int) -> None:
+    ax = plot_maze({(0, 0): floor, (0, 1): floor}, path=[(0, 0), (0, 1)])
+    white, black, _ = (part for part in ax.collections if isinstance(part, LineCollection))
+    rims = [tuple(np.asarray(part.get_colors())[0, :3]) for part in (white, black)]
+    assert white.get_linewidths()[0] > black.get_linewidths()[0]
+    assert max(contrast(rim, sight_colour(floor)) for rim in rims) >= 3.0
+    for shade in np.linspace(0.0, 1.0, 11):
+        assert max(contrast(rim, (shade, shade, shade)) for rim in rims) >= 3.0
+
+
+def test_where_somebody_was_put_the_path_is_dashed() -> None:
+    ax = plot_maze(MAZES["4x4"].sights, path=[(0, 0), (0, 1), (3, 3), (3, 2)])
+    (jump,) = ax.lines
+    assert jump.get_linestyle() == "--"
+    walked = [part for part in ax.collections if isinstance(part, LineCollection)][-1].get_segments()
+    assert all(np.abs(np.diff(segment, axis=0)).sum() < 1.5 for segment in walked)
 
 
 def test_visited_places_are_filled_imagined_ones_hollow(agent: Agent) -> None:

@@ -3,36 +3,46 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..model.errors import CogmapError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.text import Text
 
 Cell = tuple[float, float]
 """Row and column."""
 
-SMALLEST = 4.5  # points; text that would be smaller is left out
 
-
-def axes_or_new(ax: Axes | None) -> Axes:
-    """`ax`, or the axes of a new figure that belongs to no window."""
+def axes_or_new(ax: Axes | None, *, size: tuple[float, float] = (6.0, 5.0)) -> Axes:
+    """`ax`, or the axes of a new figure of `size` inches that belongs to no window."""
     if ax is not None:
         return ax
     from matplotlib.figure import Figure
 
-    return Figure(figsize=(6.0, 5.0), layout="constrained").add_subplot()
+    return Figure(figsize=size, layout="constrained").add_subplot()
 
 
 def as_grid(ax: Axes, cells: Iterable[Cell], *, margin: float = 0.15) -> None:
-    """Square cells, rows downwards, no ticks, room for exactly these cells."""
+    """Square cells, rows downwards, no ticks, room for exactly these cells and those already there."""
     rows, columns = zip(*cells, strict=True)
     half = 0.5 + margin
-    ax.set_xlim(min(columns) - half, max(columns) + half)
-    ax.set_ylim(max(rows) + half, min(rows) - half)
+    left, right, low, high = min(columns) - half, max(columns) + half, max(rows) + half, min(rows) - half
+    if is_grid(ax):
+        (was_left, was_right), (was_low, was_high) = ax.get_xlim(), ax.get_ylim()
+        left, right, low, high = min(left, was_left), max(right, was_right), max(low, was_low), min(high, was_high)
+    ax.set_xlim(left, right)
+    ax.set_ylim(low, high)
     ax.set_aspect("equal")
+    ax.set_xticks([])  # ticks would be laid out though nobody sees them
+    ax.set_yticks([])
     ax.set_axis_off()
+
+
+def is_grid(ax: Axes) -> bool:
+    """Whether the axes hold a grid of cells that something was drawn on."""
+    return not ax.axison and ax.has_data()
 
 
 def cell_points(ax: Axes) -> float:
@@ -45,10 +55,38 @@ def cell_points(ax: Axes) -> float:
     return 72 * min(width * box.width / abs(right - left), height * box.height / abs(top - bottom))
 
 
-def fitting_size(text: str, *, width: float, height: float) -> float | None:
-    """Font size in points at which `text` fits into a box of points; None where nothing legible does."""
-    size = min(height / 1.25, width / (0.65 * max(len(text), 1)), 12.0)
-    return None if size < SMALLEST else size
+def write_in(
+    ax: Axes,
+    x: float,
+    y: float,
+    text: str,
+    *,
+    box: tuple[float, float],
+    largest: float = 12.0,
+    cut: bool = True,
+    **style: Any,
+) -> Text:
+    """Text as large as its box (width and height in data units) allows, `largest` points at most; see `FittedText`."""
+    from .fitted_text import FittedText
+
+    centred = {"ha": "center", "va": "center", "clip_on": False}
+    written = FittedText(x, y, text, box=box, largest=largest, cut=cut, **{**centred, **style})
+    written.set_transform(ax.transData)
+    ax.add_artist(written)
+    written.set_clip_path(None)
+    return written
+
+
+def legend_below(ax: Axes, *, columns: int = 3) -> None:
+    """The legend under the axis and its label, where it hides nothing; none where nothing has a name."""
+    from matplotlib.transforms import ScaledTranslation
+
+    handles, names = ax.get_legend_handles_labels()
+    figure = ax.get_figure(root=True)
+    if handles and figure is not None:
+        below = ax.transAxes + ScaledTranslation(0.0, -34 / 72, figure.dpi_scale_trans)
+        place: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": below}
+        ax.legend(handles, names, ncols=columns, frameon=False, fontsize="small", **place)
 
 
 def flat(position: Sequence[float]) -> Cell:

@@ -1,4 +1,4 @@
-"""Colours of sights: functions of the label alone, told apart with any colour vision."""
+"""Colours of sights and of lines: functions of the label alone, told apart with any colour vision, on any ground."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ import zlib
 from collections.abc import Hashable
 
 RGB = tuple[float, float, float]
+
+BLACK: RGB = (0.0, 0.0, 0.0)
+WHITE: RGB = (1.0, 1.0, 1.0)
 
 # Okabe and Ito (2008) without black, which is left to the walls
 _PALETTE = (
@@ -20,6 +23,10 @@ _PALETTE = (
     (153, 153, 153),
 )
 _TINTS = (0.0, 0.5, -0.35)  # towards white (> 0) or black (< 0)
+
+ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (
+    (red / 255, green / 255, blue / 255) for red, green, blue in _PALETTE
+)
 
 
 def sight_colour(label: Hashable) -> RGB:
@@ -38,7 +45,34 @@ def sight_colour(label: Hashable) -> RGB:
     return red, green, blue
 
 
+def luminance(colour: RGB) -> float:
+    """Relative luminance of an sRGB colour, from 0 to 1 (WCAG 2.2)."""
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in colour)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def contrast(one: RGB, other: RGB) -> float:
+    """Contrast ratio of two colours, from 1 to 21 (WCAG 2.2): text asks for 4.5, lines for 3."""
+    darker, lighter = sorted((luminance(one), luminance(other)))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def mixed(one: RGB, other: RGB, share: float) -> RGB:
+    """`share` of `one`, the rest of `other`."""
+    red, green, blue = (share * a + (1.0 - share) * b for a, b in zip(one, other, strict=True))
+    return red, green, blue
+
+
 def ink_on(colour: RGB) -> str:
-    """Black or white, whichever is easier to read on `colour`."""
-    red, green, blue = colour
-    return "black" if 0.299 * red + 0.587 * green + 0.114 * blue > 0.45 else "white"
+    """Black or white, whichever is easier to read on `colour`; the contrast is never below 4.5."""
+    return "black" if contrast(colour, BLACK) >= contrast(colour, WHITE) else "white"
+
+
+def against(colour: RGB, paper: RGB, *, least: float = 3.0) -> RGB:
+    """The colour, made darker or lighter until it has the contrast `least` with `paper`."""
+    towards = BLACK if ink_on(paper) == "black" else WHITE
+    for share in range(20):
+        shade = mixed(towards, colour, share / 20)
+        if contrast(shade, paper) >= least:
+            return shade
+    return towards

@@ -2,33 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..agent import StepRecord
-from ..model.errors import CogmapError
-from .axes import axes_or_new
+from .axes import axes_or_new, legend_below
+from .colours import BLUE, SKY
+from .terms import TERMS
+from .theme import theme_of
+from .time_axis import Trace, bars_of, finish, mark_events, marker, steps_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 NOTHING = 1e-6  # nats
 
-# each term of StepRecord.G: what its line is called, its sign in G, colour and line style
-_TERMS = {
-    "state_information": ("−state information", -1.0, "#0072b2", "--"),
-    "sight_information": ("−sight information", -1.0, "#e69f00", "-."),
-    "transition_information": ("−transition information", -1.0, "#009e73", (0, (5, 1))),
-    "position_information": ("−position information", -1.0, "#cc79a7", ":"),
-    "utility": ("−utility", -1.0, "#56b4e9", (0, (3, 1, 1, 1))),
-    "collision": ("collision", 1.0, "#d55e00", (0, (1, 1))),
-}
 
-
-def plot_free_energy(trace: Sequence[StepRecord], *, title: str | None = None, ax: Axes | None = None) -> Axes:
+def plot_free_energy(trace: Trace, *, title: str | None = None, ax: Axes | None = None) -> Axes:
     """F of every step in nats (eq. 3), and on a second axis the belief in the most probable place.
+
+    Steps at which the agent found itself moved, or took back what it had learned, are marked.
 
     Args:
         trace: the agent's records, one a step.
@@ -38,25 +31,28 @@ def plot_free_energy(trace: Sequence[StepRecord], *, title: str | None = None, a
     Raises:
         CogmapError: the trace is empty.
     """
-    steps = _steps(trace)
+    steps = steps_of(trace)
     ax = axes_or_new(ax)
+    theme = theme_of(ax)
     beside = ax.twinx()
     certainty = [record.certainty for record in trace]
-    edges = [steps[0] - 0.5, *(step + 0.5 for step in steps)]
-    beside.stairs(certainty, edges, fill=True, color="#56b4e9", alpha=0.35)
-    beside.stairs(certainty, edges, color="#0072b2", baseline=None)
+    beside.stairs(certainty, bars_of(trace), fill=True, color=SKY, alpha=0.35)
+    beside.stairs(certainty, bars_of(trace), color=theme.line(BLUE), baseline=None)
     beside.set_ylim(0.0, 1.05)
-    beside.set_ylabel("certainty", color="#0072b2")
-    beside.tick_params(axis="y", colors="#0072b2")
-    ax.plot(steps, [record.free_energy for record in trace], marker=_marker(trace), markersize=3, color="black")
+    beside.set_ylabel("certainty (shaded)")
+    ax.plot(steps, [record.free_energy for record in trace], marker=marker(trace), markersize=3, color=theme.ink)
     ax.set_ylabel("free energy F (nats)")
     ax.set_zorder(beside.get_zorder() + 1)
+    beside.set_facecolor(theme.paper)
     ax.patch.set_visible(False)
-    _finish(ax, trace, title)
+    beside.patch.set_visible(True)
+    mark_events(ax, trace)
+    legend_below(ax)
+    finish(ax, trace, title)
     return ax
 
 
-def plot_expected_free_energy(trace: Sequence[StepRecord], *, title: str | None = None, ax: Axes | None = None) -> Axes:
+def plot_expected_free_energy(trace: Trace, *, title: str | None = None, ax: Axes | None = None) -> Axes:
     """G of the chosen policy at every step in nats (eqs. 5 and 8), and the terms it is the sum of.
 
     Terms that are zero at every step are left out.
@@ -69,40 +65,20 @@ def plot_expected_free_energy(trace: Sequence[StepRecord], *, title: str | None 
     Raises:
         CogmapError: the trace is empty.
     """
-    steps = _steps(trace)
+    steps = steps_of(trace)
     ax = axes_or_new(ax)
-    ax.axhline(0.0, color="0.8", linewidth=0.8)
-    marker = _marker(trace)
-    for key, (name, sign, colour, style) in _TERMS.items():
-        values = np.array([sign * record.G[key] for record in trace])
+    theme = theme_of(ax)
+    ax.axhline(0.0, color=theme.shade(0.25), linewidth=0.8)
+    dots: dict[str, Any] = {"marker": marker(trace), "markersize": 3}
+    for key, term in TERMS.items():
+        values = np.array([term.sign * record.G[key] for record in trace])
         if np.abs(values).max() > NOTHING:
-            ax.plot(steps, values, label=name, color=colour, linestyle=style, marker=marker, markersize=3)
+            ax.plot(steps, values, label=term.name, color=theme.line(term.colour), linestyle=term.style, **dots)
     G = np.array([record.G["G"] for record in trace])
-    ax.plot(steps, G, label="G", color="black", marker=marker, markersize=3)
+    ax.plot(steps, G, label="G", color=theme.ink, **dots)
     if np.abs(G).max() <= NOTHING:
         ax.set_ylim(-1.0, 1.0)
     ax.set_ylabel("expected free energy (nats)")
-    ax.legend(fontsize="small", frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3)
-    _finish(ax, trace, title)
+    legend_below(ax)
+    finish(ax, trace, title)
     return ax
-
-
-def _steps(trace: Sequence[StepRecord]) -> list[int]:
-    if not trace:
-        raise CogmapError("plot: the trace is empty; let the agent take a step first")
-    return [record.step for record in trace]
-
-
-def _marker(trace: Sequence[StepRecord]) -> str:
-    return "o" if len(trace) <= 60 else ""
-
-
-def _finish(ax: Axes, trace: Sequence[StepRecord], title: str | None) -> None:
-    from matplotlib.ticker import MaxNLocator
-
-    first, last = trace[0].step, trace[-1].step
-    ax.set_xlim(first - 0.5, last + 0.5)
-    ax.xaxis.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
-    ax.set_xlabel("step")
-    if title is not None:
-        ax.set_title(title)

@@ -3,23 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
-from .axes import as_grid, axes_or_new, cell_points, fitting_size, flat
-from .colours import ink_on, sight_colour
+from .axes import as_grid, axes_or_new, cell_points, flat, write_in
+from .colours import ink_on, mixed, sight_colour
+from .theme import theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+Sights = Mapping[tuple[int, int], Hashable]
+
 LANE = 0.09  # cells to the right of the middle, so that there and back are two lines
+FAINT = 0.3  # how much of a floor's colour is left beneath a map
 
 
 def plot_maze(
-    sights: Mapping[tuple[int, int], Hashable],
+    sights: Sights,
     *,
     path: Sequence[Sequence[int]] | None = None,
     title: str | None = None,
@@ -29,7 +34,8 @@ def plot_maze(
 
     Args:
         sights: label of each room, by (row, column).
-        path: the rooms walked through, in order; moves keep to the right.
+        path: the rooms walked through, in order; moves keep to the right, and where a room is not next to the one
+            before the line is dashed.
         title: above the plot.
         ax: axes to draw on; new ones unless given.
 
@@ -38,31 +44,32 @@ def plot_maze(
     """
     if not sights:
         raise CogmapError("plot_maze: there are no rooms; give at least one")
-    if strange := [tuple(room) for room in path or () if tuple(room) not in sights]:
+    if path is not None and (strange := [tuple(room) for room in path if tuple(room) not in sights]):
         raise CogmapError(f"plot_maze: the path goes through {strange[0]}, which is no room; give rooms only")
     ax = axes_or_new(ax)
     as_grid(ax, sights)
-    _draw_rooms(ax, sights)
-    if path:
+    draw_rooms(ax, sights)
+    if path is not None and len(path):
         _draw_path(ax, np.array([flat(room) for room in path]))
     if title is not None:
         ax.set_title(title)
     return ax
 
 
-def _draw_rooms(ax: Axes, sights: Mapping[tuple[int, int], Hashable]) -> None:
+def draw_rooms(ax: Axes, sights: Sights, *, faint: bool = False) -> None:
+    """The floors with their labels; `faint` ones are pale and have none, to be drawn over."""
     from matplotlib.patches import Rectangle
     from matplotlib.patheffects import withStroke
 
-    points = cell_points(ax)
+    edge, paper = min(1.5, cell_points(ax) / 20), theme_of(ax).paper
     for (row, column), label in sights.items():
         colour = sight_colour(label)
-        corner = (column - 0.5, row - 0.5)
-        ax.add_patch(Rectangle(corner, 1, 1, facecolor=colour, edgecolor="white", linewidth=min(1.5, points / 20)))
-        size = fitting_size(str(label), width=0.8 * points, height=0.25 * points)
-        if size is not None:
-            place = (column - 0.44, row - 0.44)
-            text = ax.text(*place, str(label), size=size, color=ink_on(colour), va="top", parse_math=False, zorder=5)
+        floor = mixed(colour, paper, FAINT) if faint else colour
+        ax.add_artist(Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=floor, edgecolor=paper, linewidth=edge))
+        if not faint:
+            at = (column - 0.44, row - 0.44)
+            style: dict[str, Any] = {"color": ink_on(colour), "ha": "left", "va": "top", "zorder": 5}
+            text = write_in(ax, *at, str(label), box=(0.8, 0.27), **style)
             text.set_path_effects([withStroke(linewidth=2, foreground=colour)])
 
 
@@ -70,19 +77,28 @@ def _draw_path(ax: Axes, rooms: NDArray[np.float64]) -> None:
     """`rooms [T, 2]`, rows and columns."""
     from matplotlib.collections import LineCollection
 
-    points = cell_points(ax)
-    line = lanes(rooms)[:, ::-1]
-    width = min(max(points / 18, 0.8), 4.0)
-    shades = np.linspace(0.0, 1.0, max(len(line) - 1, 1))
-    segments = list(np.stack([line[:-1], line[1:]], axis=1)) if len(line) > 1 else []
-    # a grey rim keeps both ends of the scale apart from any floor
-    ax.add_collection(LineCollection(segments, colors="0.35", linewidths=width * 1.7, capstyle="round", zorder=3))
+    width = min(max(cell_points(ax) / 14, 1.0), 5.0)
+    pieces = [lanes(piece)[:, ::-1] for piece in np.split(rooms, _jumps(rooms))]
+    segments = [segment for piece in pieces for segment in np.stack([piece[:-1], piece[1:]], axis=1)]
+    shades = np.linspace(0.0, 1.0, max(len(segments), 1))
+    for left, entered in pairwise(pieces):
+        jump: dict[str, Any] = {"color": "black", "gapcolor": "white", "linewidth": width / 2, "zorder": 2.9}
+        ax.plot(*zip(left[-1], entered[0], strict=True), linestyle=(0, (3, 2)), **jump)
+    # a white rim around a black one: whatever the floor and the shade, one of the two borders shows
+    for colour, wide, above in (("white", 2.4, 3.0), ("black", 1.2, 3.1)):
+        rim: dict[str, Any] = {"colors": colour, "linewidths": width + wide, "capstyle": "round", "zorder": above}
+        ax.add_collection(LineCollection(segments, **rim))
     ax.add_collection(
-        LineCollection(segments, colors=[str(s) for s in shades], linewidths=width, capstyle="round", zorder=3.1)
+        LineCollection(segments, colors=[str(s) for s in shades], linewidths=width, capstyle="round", zorder=3.2)
     )
-    ends = {"marker": "o", "s": (2.6 * width) ** 2, "linewidths": width * 0.5, "zorder": 4}
-    ax.scatter(*line[-1], color="white", edgecolors="black", label="end", **ends)
-    ax.scatter(*line[0], color="black", edgecolors="white", label="start", **{**ends, "s": (1.8 * width) ** 2})
+    ends: dict[str, Any] = {"marker": "o", "s": (2.2 * width) ** 2, "linewidths": 1.2, "zorder": 4}
+    ax.scatter(*pieces[-1][-1], color="white", edgecolors="black", label="end", **ends)
+    ax.scatter(*pieces[0][0], color="black", edgecolors="white", label="start", **{**ends, "s": (1.6 * width) ** 2})
+
+
+def _jumps(rooms: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Indices of the rooms that are not next to the one before: whoever walked was put there."""
+    return np.flatnonzero(np.abs(np.diff(rooms, axis=0)).sum(axis=1) > 1) + 1
 
 
 def lanes(rooms: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -5,25 +5,69 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from ..model import CognitiveMap
 from ..model.errors import CogmapError
+from ..planning import Plan
 from .axes import Cell, as_grid, axes_or_new, cell_points, flat
+from .colours import BLUE, RGB, SKY, contrast, mixed
+from .theme import Theme, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 LEAST = 0.01  # ways that are less probable are not drawn
-PALEST = 0.85  # grey of the least probable way; the most probable one is black
+PALEST = 0.85  # how much of the ground is in the least probable way; none is in the most probable one
+RING = 0.34  # radius behind a place where paths end, cells
 
 Paths = Mapping[tuple[tuple[float, ...], ...], float]
 
 
-def plot_policies(paths: Paths, *, title: str | None = None, ax: Axes | None = None) -> Axes:
-    """Imagined paths, each way as dark as it is probable that it will be walked, with a dot where paths end.
+def policy_paths(
+    plan: Plan, map_: CognitiveMap, *, start: Sequence[float] = (0, 0), least: float = 1e-3
+) -> dict[tuple[Cell, ...], float]:
+    """The cells that the policies lead along if every way is as the map has it, the most probable path first.
 
     Args:
-        paths: the cells (row, column) of each path, and P(policy); those of several policies may be added up.
+        plan: of the agent.
+        map_: of the agent, in one or two dimensions.
+        start: row and column of the place that the agent takes as its origin.
+        least: paths that are less probable are left out; those that are impossible always are.
+
+    Returns:
+        For each path Q(s) of its first place times P(policy), summed over the policies that lead along it. Where a
+        policy stays or bumps, the cell is not repeated; places without a position are passed over.
+
+    Raises:
+        CogmapError: positions of more than two dimensions.
+    """
+    down, right = flat(start)
+    positions = [map_.position(place) if place >= 0 else None for place in plan.places.tolist()]
+    cells = [None if at is None else (flat(at)[0] + down, flat(at)[1] + right) for at in positions]
+    shares: defaultdict[tuple[Cell, ...], float] = defaultdict(float)
+    for first in np.flatnonzero(plan.reach.belief >= least).tolist():
+        for policy in np.flatnonzero(plan.probability >= least / 10).tolist():
+            if path := _path(plan, cells, first, policy):
+                shares[path] += float(plan.reach.belief[first] * plan.probability[policy])
+    return dict(
+        sorted(
+            (item for item in shares.items() if item[1] >= least and item[1] > 0.0),
+            key=lambda item: (-item[1], item[0]),
+        )
+    )
+
+
+def plot_policies(paths: Paths, *, title: str | None = None, ax: Axes | None = None) -> Axes:
+    """Imagined paths, each way as strong as it is probable that it will be walked, with a dot where paths end.
+
+    They are grey over a maze, and blue, beneath the places, over a map.
+
+    Args:
+        paths: the cells (row, column) of each path, and P(policy), as `policy_paths` has them; those of several
+            policies may be added up.
         title: above the plot.
         ax: axes with a grid of cells to draw on, as `plot_maze` and `plot_map` leave them; new ones unless given.
 
@@ -36,10 +80,20 @@ def plot_policies(paths: Paths, *, title: str | None = None, ax: Axes | None = N
     if ax is None:
         ax = axes_or_new(None)
         as_grid(ax, [flat(cell) for path in paths for cell in path] or [(0.0, 0.0)])
-    _draw(ax, ways, ends)
+    _draw(ax, ways, ends, theme_of(ax))
     if title is not None:
         ax.set_title(title)
     return ax
+
+
+def _path(plan: Plan, cells: Sequence[Cell | None], first: int, policy: int) -> tuple[Cell, ...]:
+    at, path = first, [cells[first]]
+    for action in plan.policies[policy].tolist():
+        ahead = int(plan.reach.successor[at, action])
+        at = at if ahead < 0 else ahead
+        if cells[at] != path[-1]:
+            path.append(cells[at])
+    return tuple(cell for cell in path if cell is not None)
 
 
 def _shares(
@@ -55,27 +109,48 @@ def _shares(
     return dict(ways), dict(ends)
 
 
-def _draw(ax: Axes, ways: Mapping[tuple[Cell, Cell], float], ends: Mapping[Cell, float]) -> None:
+def _draw(ax: Axes, ways: Mapping[tuple[Cell, Cell], float], ends: Mapping[Cell, float], theme: Theme) -> None:
     from matplotlib.collections import LineCollection
 
-    width = min(max(cell_points(ax) / 8, 2.0), 7.0)
+    width, on_map = min(max(cell_points(ax) / 8, 2.0), 7.0), _on_map(ax)
+    strongest = _strongest(theme) if on_map else theme.ink
     drawn = sorted((item for item in ways.items() if item[1] >= LEAST), key=lambda item: item[1])
     lines = [[(a[1], a[0]), (b[1], b[0])] for (a, b), _ in drawn]
-    shades = [_shade(p) for _, p in drawn]
-    # a rim keeps the palest grey apart from any floor
-    ax.add_collection(LineCollection(lines, colors="white", linewidths=width * 1.8, capstyle="round", zorder=2.5))
-    ax.add_collection(LineCollection(lines, colors=shades, linewidths=width, capstyle="round", zorder=2.6))
-    dots = sorted((item for item in ends.items() if item[1] >= LEAST), key=lambda item: item[1])
-    ax.scatter(
-        [column for (_, column), _ in dots],
-        [row for (row, _), _ in dots],
-        s=(2.2 * width) ** 2,
-        c=[_shade(p) for _, p in dots],
-        edgecolors="white",
-        linewidths=0.3 * width,
-        zorder=2.7,
-    )
+    shades = [_shade(p, strongest, theme) for _, p in drawn]
+    # rims keep the palest and the darkest shade apart from any floor
+    outer = theme.shade(0.45) if on_map else theme.ink
+    for colour, wide, above in ((outer, 2.1, 1.5), (theme.paper, 1.8, 1.6)):
+        rim: dict[str, Any] = {"colors": [colour], "linewidths": width * wide, "capstyle": "round", "zorder": above}
+        ax.add_collection(LineCollection(lines, **rim))
+    ax.add_collection(LineCollection(lines, colors=shades, linewidths=width, capstyle="round", zorder=1.7))
+    dots = {cell: _shade(p, strongest, theme) for cell, p in sorted(ends.items(), key=lambda e: e[1]) if p >= LEAST}
+    if on_map:
+        _draw_rings(ax, dots, theme)
+        return
+    x, y = [column for _, column in dots], [row for row, _ in dots]
+    look: dict[str, Any] = {"c": list(dots.values()), "edgecolors": [theme.paper], "linewidths": 0.3 * width}
+    ax.scatter(x, y, s=(2.2 * width) ** 2, zorder=1.8, **look)
 
 
-def _shade(p: float) -> str:
-    return str(PALEST * (1.0 - min(p, 1.0)))
+def _draw_rings(ax: Axes, dots: Mapping[Cell, RGB], theme: Theme) -> None:
+    """Discs behind the places of a map, which would hide a dot."""
+    from matplotlib.patches import Circle
+
+    for (row, column), shade in dots.items():
+        look: dict[str, Any] = {"facecolor": shade, "edgecolor": theme.ink, "linewidth": 0.7, "zorder": 1.8}
+        ax.add_artist(Circle((column, row), RING, **look))
+
+
+def _on_map(ax: Axes) -> bool:
+    """Whether there are places, and links as dark as paths would be."""
+    from matplotlib.patches import Circle
+
+    return any(isinstance(patch, Circle) for patch in ax.patches)
+
+
+def _strongest(theme: Theme) -> RGB:
+    return max((BLUE, SKY), key=lambda colour: contrast(colour, theme.paper))
+
+
+def _shade(p: float, strongest: RGB, theme: Theme) -> RGB:
+    return mixed(strongest, theme.paper, 1.0 - PALEST * (1.0 - min(p, 1.0)))

@@ -1,0 +1,163 @@
+"""Explanations agree with the plan, to the last digit."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+from cogmap.agent import Agent, Settings
+from cogmap.model import CogmapError
+from cogmap.planning import GENERATORS
+from cogmap.planning.choice import TIE
+from cogmap.views.explain import SIGNS, Explanation, explain
+from cogmap.worlds import load_world
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import GRID, walk, walked
+
+
+def assert_agrees(agent: Agent, told: Explanation) -> None:
+    plan, terms = agent.plan, agent.plan.expected_free_energy
+    assert told.step == agent.steps - 1
+    assert told.considered == len(plan.policies)
+    assert (told.certainty, told.doubt) == (agent.belief.certainty, agent.belief.doubt)
+    assert told.chosen.index == plan.chosen
+    assert list(told.chosen.actions) == plan.names
+    assert [place.probability for place in told.belief] == list(agent.belief.places.values())[: len(told.belief)]
+    assert [policy.terms["G"] for policy in told.best] == sorted(terms.G.tolist())[: len(told.best)]
+    for policy in (told.chosen, *told.best, *(lost.policy for lost in told.rejected)):
+        assert policy.terms == terms.row(policy.index)
+        assert policy.probability == plan.probability[policy.index]
+        assert sum(policy.contributions.values()) == pytest.approx(policy.terms["G"], abs=1e-9)
+    for first, probability in zip(told.actions, plan.action_probability, strict=True):
+        assert first.probability == pytest.approx(probability, abs=1e-12)
+    assert sum(first.policies for first in told.actions) == told.considered
+    for lost in told.rejected:
+        assert lost.policy.index != plan.chosen
+        assert lost.difference == pytest.approx(lost.policy.terms["G"] - told.chosen.terms["G"], abs=1e-9)
+        if lost.term is not None:
+            assert lost.worse[lost.term] == max(lost.worse.values()) > 0.0
+            assert lost.difference > 0.0
+        else:
+            assert lost.difference <= TIE + 1e-12
+
+
+@settings(max_examples=12, deadline=None)
+@given(
+    st.sampled_from(["3x3_alias", "4x4", "t_maze_alias"]),
+    st.integers(1, 14),
+    st.sampled_from(sorted(GENERATORS)),
+    st.sampled_from(["best", "sampled"]),
+    st.integers(1, 7),
+)
+def test_numbers_are_those_of_the_plan(name: str, steps: int, policies: str, choice: str, most: int) -> None:
+    agent = walked(load_world(name), steps, seed=steps, policies=policies, choice=choice)
+    told = explain(agent, most=most)
+    assert_agrees(agent, told)
+    assert json.loads(json.dumps(told.to_dict()))["chosen"]["terms"] == told.chosen.terms
+    assert str(told) == told.text
+    for part in ("it weighed", "G = collision - I state", "first actions: up", "preferences: none"):
+        assert part in told.text
+
+
+def test_ties_are_told_and_the_lot() -> None:
+    agent = walked(load_world("3x3"), 30)  # it knows everything: all ways are as good
+    told, G = explain(agent), agent.plan.expected_free_energy.G
+    assert told.equals == (G - G.min() <= TIE).sum() > 1
+    assert f"by lot among {told.equals} policies" in told.text
+    assert {lost.verdict for lost in told.rejected} == {"lot"}
+    assert "as good; the lot fell on another" in told.text
+
+
+def test_at_a_goal_the_policy_that_moves_least_wins() -> None:
+    world = load_world("3x3")
+    agent = Agent(world.motions, settings=Settings(look_ahead=3), seed=0)
+    for k, _ in enumerate(walk(world, agent, 40)):
+        if k == 25:
+            agent.prefer({4: 3.0}, places={0: 0.0})
+    told = explain(agent)
+    assert_agrees(agent, told)
+    assert told.sights == ((4, 3.0),)
+    assert "preferences, in nats: sight 4 +3, place 0 +0; goal weight 1" in told.text
+    assert {"utility"} == {lost.term for lost in told.rejected if lost.term}
+
+
+def test_what_comes_later_is_told_from_what_is_less() -> None:
+    """Of two ways to the same places the one that gets there later loses by the discount alone."""
+    world = load_world("t_maze")
+    verdicts: set[str] = set()
+    agent = Agent(world.motions, settings=Settings(look_ahead=4, discount=0.5, policies="exhaustive"), seed=0)
+    for _ in walk(world, agent, 8, seed=4):
+        told = explain(agent, most=60)
+        verdicts |= {lost.verdict for lost in told.rejected}
+        for lost in told.rejected:
+            if lost.verdict == "later":
+                assert lost.term not in (None, "collision")
+    assert {"later", "less"} <= verdicts
+    undiscounted = walked(load_world("t_maze"), 4, discount=1.0)
+    assert all(lost.verdict != "later" for lost in explain(undiscounted, most=50).rejected)
+
+
+def test_wishes_are_those_of_the_choice() -> None:
+    agent = walked(load_world("3x3"), 5)
+    agent.prefer({"cheese": 2.0})
+    assert explain(agent).sights == ()
+    agent.step({"sight": 0, "open": [False, True, False, True, True]})
+    assert explain(agent).sights == (("cheese", 2.0),)
+
+
+def test_html_is_escaped() -> None:
+    agent = Agent(GRID, settings=Settings(look_ahead=2), seed=0)
+    agent.prefer({"<b>": 1.0})
+    agent.step({"sight": "<script>", "open": [True] * 5})
+    page = explain(agent)._repr_html_()
+    assert "&lt;script&gt;" in page
+    assert "<script>" not in page
+    assert "<b>" not in page
+
+
+def test_an_agent_that_planned_nothing() -> None:
+    with pytest.raises(CogmapError, match="planned nothing yet"):
+        explain(Agent(GRID))
+    with pytest.raises(CogmapError, match="most is 0"):
+        explain(walked(load_world("3x3"), 1), most=0)
+
+
+# -- of loaded agents ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("options", [{}, {"choice": "sampled"}, {"policies": "exhaustive"}, {"forgetting": 0.1}])
+def test_a_loaded_agent_explains_its_last_choice_alike(options: dict[str, Any], tmp_path: Any) -> None:
+    world, file = load_world("4x4_alias"), tmp_path / "m.npz"
+    agent = Agent(world.motions, settings=Settings(look_ahead=3, **options), seed=2)
+    agent.prefer({3: 0.5, (1, "never met"): 0.1})
+    for k, _ in enumerate(walk(world, agent, 12, seed=2, displace_every=5)):
+        if k % 3 == 2:
+            told = explain(agent)
+            agent.prefer({4: 0.25 * k})  # of the next choice, not the last
+            agent.save(file)
+            loaded = Agent.load(file)
+            state = loaded.state()[0]
+            assert explain(loaded) == told
+            assert loaded.state()[0] == state, "explaining must not change the agent, nor its generator"
+            np.testing.assert_array_equal(loaded.plan.policies, agent.plan.policies)
+            np.testing.assert_array_equal(loaded.plan.probability, agent.plan.probability)
+            assert loaded.plan.action == agent.plan.action
+
+
+def test_files_without_the_choice_say_so() -> None:
+    header, arrays = walked(load_world("3x3"), 3).state()
+    old = {name: value for name, value in header.items() if name != "choice"}
+    with pytest.raises(CogmapError, match="an earlier version wrote it"):
+        explain(Agent.from_state(old, arrays))
+    strange = {**header, "choice": {**header["choice"], "policy": [0] * 99}}
+    with pytest.raises(CogmapError, match="does not come out the same"):
+        explain(Agent.from_state(strange, arrays))
+
+
+def test_the_signs_are_those_of_G() -> None:
+    terms = walked(load_world("3x3_alias"), 3).plan.expected_free_energy
+    total = sum(sign * getattr(terms, name) for name, sign in SIGNS.items())
+    np.testing.assert_allclose(total, terms.G, atol=1e-12)
