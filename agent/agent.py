@@ -113,9 +113,14 @@ class Agent:
         return self._last_choice().wishes
 
     @property
+    def window(self) -> tuple[Slice, ...]:
+        """What `graph` is made of, the oldest step first."""
+        return tuple(self._window)
+
+    @property
     def graph(self) -> FactorGraph:
         """The factor graph of the current window."""
-        return window_graph(self.map, list(self._window))
+        return window_graph(self.map, self.window)
 
     def prefer(
         self, sights: Mapping[Hashable, float] | None = None, *, places: Mapping[int, float] | None = None

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import struct
-import tempfile
 import tokenize
 import zipfile
 import zlib
@@ -18,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
+from ..model.files import write_through
 
 if TYPE_CHECKING:
     from .agent import Agent
@@ -37,23 +36,12 @@ def save(agent: Agent, path: str | PathLike[str]) -> None:
     header, arrays = agent.state()
     header = {"format": FORMAT, "schema": SCHEMA, "version": _version(), **header}
     packed = np.frombuffer(_json(header).encode(), dtype=np.uint8)
-    target = Path(path)
-    try:
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part")
-    except OSError as error:
-        raise CogmapError(
-            f"save: cannot write into {target.parent} ({error.strerror}); choose another folder"
-        ) from error
-    try:
-        with os.fdopen(handle, "wb") as file:
+
+    def write(target: Path) -> None:
+        with target.open("wb") as file:
             np.savez(file, header=packed, **arrays)  # pyright: ignore[reportArgumentType]
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, target)
-    except BaseException as error:
-        Path(temporary).unlink(missing_ok=True)
-        if not isinstance(error, OSError):
-            raise
-        raise CogmapError(f"save: cannot write {target} ({error.strerror}); choose another file") from error
+
+    write_through(Path(path), write)
 
 
 def load(path: str | PathLike[str]) -> Agent:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import subprocess
 import xml.etree.ElementTree as ET
@@ -183,7 +184,7 @@ def test_damaged_graphs_are_refused(wrong: Any) -> None:
 
 
 def accepted(source: str) -> str:
-    if shutil.which("dot") is None:
+    if shutil.which("dot") is None and not os.environ.get("CI"):
         pytest.skip("Graphviz' dot is not installed")
     run = subprocess.run(["dot", "-Tplain"], input=source.encode(), capture_output=True, check=False, timeout=20)
     assert run.returncode == 0, run.stderr

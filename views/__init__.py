@@ -14,11 +14,14 @@ from .growth_frames import GrowthFrames
 from .map_plot import plot_map
 from .maze_plot import plot_maze
 from .policy_plot import plot_policies, policy_paths
+from .recording import Recorder, Recording
 from .terms_plot import plot_terms
 
 __all__ = [
     "Explanation",
     "GrowthFrames",
+    "Recorder",
+    "Recording",
     "explain",
     "explore_figure",
     "plot_belief",

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from ..agent import Agent
 from ..model.errors import CogmapError
+from ..model.files import make_folder, write_through, write_whole
 from .axes import Cell, axes_or_new, flat
-from .files import make_folder, write_through, write_whole
 from .growth_news import GrowthFrame, caption, news_of
 from .map_picture import PlacePicture, picture_of
 from .map_plot import RADIUS, draw_picture

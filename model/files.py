@@ -7,7 +7,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from ..model.errors import CogmapError
+from .errors import CogmapError
 
 
 def write_whole(path: Path, content: bytes) -> Path:

@@ -1,0 +1,67 @@
+"""The plan of a step for a recording: the best policies, what they are worth, and where they lead."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..planning import Plan
+from ..planning.choice import TIE
+from ..planning.rollout import ExpectedFreeEnergy
+
+MOST = 12
+"""Policies that are kept, the best ones."""
+
+TERMS: tuple[str, ...] = tuple(ExpectedFreeEnergy.__slots__)
+"""Names of the terms of G, in the order in which they are written."""
+
+DIGITS = 4
+
+
+def plan_frame(plan: Plan) -> dict[str, Any]:
+    """What a person wants to know of a plan, as JSON values.
+
+    `policies` (actions by index), `P`, `G`, `terms` (in the order of `TERMS`) and `paths` (places of the map, the
+    present one first, -1 from where nothing is imagined) have an entry a policy, the least G first. `mean` has the
+    terms of all that were considered, on average.
+    """
+    cost, terms = plan.expected_free_energy.G, plan.expected_free_energy
+    best = _best(plan, cost)
+    every = np.stack([getattr(terms, name) for name in TERMS], axis=1)
+    return {
+        "considered": len(plan.policies),
+        "cut": int(plan.cut),
+        "ties": int((cost - cost.min() <= TIE).sum()),
+        "chosen": int(np.flatnonzero(best == plan.chosen)[0]),
+        "action": int(plan.action),
+        "policies": plan.policies[best].tolist(),
+        "P": plan.probability[best].round(DIGITS + 2).tolist(),
+        "G": cost[best].round(DIGITS).tolist(),
+        "terms": (every[best].round(DIGITS) + 0.0).tolist(),
+        "mean": (every.mean(axis=0).round(DIGITS) + 0.0).tolist(),
+        "paths": _paths(plan, best).tolist(),
+    }
+
+
+def _best(plan: Plan, cost: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.int64]]:
+    """Indices of the policies to keep; the chosen one is among them, whatever its rank."""
+    most = min(MOST, len(cost))
+    best = np.argpartition(cost, most - 1)[:most]
+    best = best[np.argsort(cost[best], kind="stable")]
+    if plan.chosen not in best:
+        best[-1] = plan.chosen
+    return best
+
+
+def _paths(plan: Plan, best: np.ndarray[Any, np.dtype[np.int64]]) -> np.ndarray[Any, np.dtype[np.int64]]:
+    """`[n, L + 1]` the most probable places along each policy, from the most probable one now."""
+    reach = plan.reach
+    likely = reach.B.argmax(axis=0)
+    actions = plan.policies[best]
+    here = np.full(len(best), int(reach.belief.argmax()))
+    paths = [here]
+    for column in actions.T:
+        here = likely[here, column]
+        paths.append(here)
+    return reach.places[np.stack(paths, axis=1)]

@@ -1,0 +1,97 @@
+"""A recording as one HTML file that needs nothing else."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import html
+import json
+import re
+from collections.abc import Hashable
+from importlib.resources import files
+from typing import Any
+
+from ...model.errors import CogmapError
+from ...model.labels import decode
+from ..colours import RGB, ink_on, sight_colour
+from ..recording import Recording
+
+SCRIPTS = ("draw", "data", "words", "maze", "map", "belief", "policies", "times", "window", "controls")
+"""Parts of the script, in the order in which they follow each other."""
+
+DRAWN = (1, 2)
+"""Dimensions that can be drawn."""
+
+
+def replay_html(recording: Recording) -> str:
+    """One HTML file, without references to anything outside, that shows the recording.
+
+    Labels and names are only ever text in it: they stand in a block of JSON, and the page's policy allows no script
+    and no style but its own.
+
+    Raises:
+        CogmapError: positions of more than two dimensions.
+    """
+    dimensions = len(recording.data["motions"]["displacements"][0])
+    if dimensions not in DRAWN:
+        raise CogmapError(f"replay: positions have {dimensions} dimensions; only 1 or 2 can be drawn")
+    script = "\n".join(["(() => {", '"use strict";', *(_asset(f"{name}.js") for name in SCRIPTS), "})();"])
+    style = _asset("replay.css")
+    title = recording.data["title"]
+    parts = {
+        "title": html.escape(f"{title} – cogmap replay" if title else "cogmap replay"),
+        "policy": f"default-src 'none'; script-src '{_digest(script)}'; style-src '{_digest(style)}'",
+        "style": style,
+        "data": _embedded(_content(recording)),
+        "script": script,
+    }
+    # one pass over the frame: what was put in is not looked at again
+    return re.sub(r"@@(\w+)@@", lambda found: parts[found[1]], _asset("replay.html"))
+
+
+def _asset(name: str) -> str:
+    return files(__package__ or "").joinpath(name).read_text(encoding="utf-8")
+
+
+def _digest(text: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def _embedded(value: Any) -> str:
+    """JSON that no HTML parser takes for the end of its element."""
+    text = json.dumps(value, separators=(",", ":"), allow_nan=False)
+    return text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e")
+
+
+def _content(recording: Recording) -> dict[str, Any]:
+    """The recording, with the labels as texts in their colours."""
+    data, looks = recording.data, _Looks()
+    for label in recording.sights:
+        looks.number(label)
+    kept = ("title", "motions", "terms", "known", "origin", "frames")
+    return {
+        **{name: data[name] for name in kept},
+        "threshold": data["settings"]["certainty"],
+        "maze": data["maze"] and [[row, column, looks.number(decode(label))] for row, column, label in data["maze"]],
+        "goals": [looks.number(decode(label)) for label in data["goals"]],
+        "looks": looks.all,
+    }
+
+
+class _Looks:
+    """Text, colour and ink of each label; a label of the recording keeps its number."""
+
+    def __init__(self) -> None:
+        self.all: list[tuple[str, str, str]] = []
+        self._numbers: dict[Hashable, int] = {}
+
+    def number(self, label: Hashable) -> int:
+        if label not in self._numbers:
+            self._numbers[label] = len(self.all)
+            colour = sight_colour(label)
+            self.all.append((str(label), _hex(colour), "#000" if ink_on(colour) == "black" else "#fff"))
+        return self._numbers[label]
+
+
+def _hex(colour: RGB) -> str:
+    return "#" + "".join(f"{round(255 * part):02x}" for part in colour)

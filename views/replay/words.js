@@ -1,0 +1,80 @@
+// A step in words.
+const WHY = {
+  state_information: "to find out where it is",
+  sight_information: "to see what places look like",
+  position_information: "to learn where places lie",
+  transition_information: "to learn where ways lead",
+  utility: "for what it prefers",
+  collision: "to keep clear of walls",
+};
+const NAMES = {
+  state_information: "where it is",
+  sight_information: "what places look like",
+  position_information: "where places lie",
+  transition_information: "where ways lead",
+  utility: "preferences",
+  collision: "collisions",
+};
+const nameOf = (term) => NAMES[term] || term.replaceAll("_", " ");
+// G = collision - information - utility
+const sign = (term) => (term === "collision" ? 1 : -1);
+
+// "up 2×, left, up"
+function route(policy) {
+  const runs = [];
+  for (const action of policy) {
+    const last = runs[runs.length - 1];
+    if (last && last[0] === action) last[1] += 1;
+    else runs.push([action, 1]);
+  }
+  return runs.map(([action, n]) => ACTIONS[action] + (n > 1 ? ` ${n}×` : "")).join(", ");
+}
+
+function placeName(place) {
+  const { exact } = map.places[place];
+  return `place ${place}${exact ? " at " + tuple(exact) : ", which has no position yet"}`;
+}
+
+function seen(frame) {
+  const open = ACTIONS.filter((_, action) => frame.open[action] && action !== R.motions.stay);
+  return `Step ${frame.step}. It sees ${clipped(R.looks[frame.sight][0], 40)}; ${open.length ? "open: " + open.join(", ") : "no way is open"}.`;
+}
+
+function believed(frame) {
+  const [[place, q], second] = frame.belief;
+  const { exact } = map.places[place], real = truth(frame);
+  let where = `It takes itself to be in ${placeName(place)} (${percent(q)})`;
+  if (!frame.certain && second) where += `, or in ${placeName(second[0])} (${percent(second[1])})`;
+  if (real && exact) where += same(real, exact) ? ", and is right" : `; in truth it is at ${tuple(real)}`;
+  if (!frame.certain) where += "; too uncertain to learn";
+  return where + ".";
+}
+
+function changed(frame) {
+  const parts = [];
+  if (frame.moved >= 0.5 && frame.retracted == null) parts.push("It finds that it was moved.");
+  if (frame.retracted != null) {
+    parts.push(`It finds that it was elsewhere since step ${frame.retracted}, and takes back what it learned since.`);
+  }
+  const count = (kind) => frame.grown.filter((event) => event[0] === kind).length;
+  const grown = [["place", "place"], ["sight", "sight"]].map(([kind, what]) => [count(kind), what]).filter(([n]) => n);
+  if (grown.length) parts.push(`New to it: ${grown.map(([n, what]) => plural(n, what)).join(" and ")}.`);
+  return parts.join(" ");
+}
+
+function chosen(frame) {
+  const plan = frame.plan, terms = plan.terms[plan.chosen];
+  const better = terms.map((x, i) => -sign(R.terms[i]) * (x - plan.mean[i]));
+  const best = better.reduce((top, x, i) => (x > better[top] ? i : top), 0);
+  const among = plan.ties > 1 ? `one of ${plan.ties} equally good` : "the best";
+  const why = better[best] > 0.005
+    ? `most of all ${WHY[R.terms[best]] || nameOf(R.terms[best])} (${number(better[best])} nats better than the average policy)`
+    : "none promises more than another";
+  const rank = plan.considered > 1 ? `${among} of ${plan.considered} policies: ${why}` : "the only policy";
+  return `It chooses ${ACTIONS[plan.action]}, first of ${route(plan.policies[plan.chosen])}; ${rank}.`;
+}
+
+function drawWords(frame) {
+  const texts = [seen(frame), believed(frame), changed(frame), chosen(frame)].filter(Boolean);
+  $("words").replaceChildren(...texts.map((text) => el("p", {}, text)));
+}
