@@ -1,9 +1,10 @@
-"""Whom the agent is compared with: nearest-frontier search, habit without a map, and the random walk."""
+"""Whom the agent is compared with: clone-structured graphs, nearest-frontier search, habit alone, random walk."""
 
 from __future__ import annotations
 
+from .cscg import CscgAgent, CscgSettings
 from .frontier import FrontierAgent
 from .habit import HabitAgent
 from .random_walk import RandomAgent
 
-__all__ = ["FrontierAgent", "HabitAgent", "RandomAgent"]
+__all__ = ["CscgAgent", "CscgSettings", "FrontierAgent", "HabitAgent", "RandomAgent"]

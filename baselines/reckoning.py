@@ -119,3 +119,8 @@ class Reckoner:
         if flags.shape != (len(self._vectors),):
             raise WorldError(f"'open' has shape {flags.shape}; give one flag an action, {len(self._vectors)}")
         return sight, flags.tolist()
+
+
+def best(sights: Mapping[Any, float]) -> frozenset[Hashable]:
+    """The sights that weigh most."""
+    return frozenset(sight for sight, weight in sights.items() if weight == max(sights.values()))
