@@ -8,8 +8,10 @@ import typer
 
 from .cli_explore import explore_command
 from .cli_group import CogmapGroup
+from .cli_inspect import inspect_command
 from .cli_kidnap import kidnap_command
 from .cli_navigate import navigate_command
+from .cli_replay import replay_command
 from .cli_study import study_command
 from .cli_worlds import worlds_command
 
@@ -46,6 +48,8 @@ app.command("explore")(explore_command)
 app.command("navigate")(navigate_command)
 app.command("kidnap")(kidnap_command)
 app.command("study")(study_command)
+app.command("replay")(replay_command)
+app.command("inspect")(inspect_command)
 
 
 def main() -> None:

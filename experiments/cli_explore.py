@@ -12,7 +12,10 @@ if TYPE_CHECKING:
 
 
 World = Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, or a maze text file.")]
-Agent = Annotated[str, typer.Option(metavar="NAME", help="cogmap, frontier or random.")]
+Agent = Annotated[
+    str,
+    typer.Option(metavar="NAME", help="cogmap, frontier, random, cscg, cscg_pose, cscg_random or cscg_pose_random."),
+]
 Runs = Annotated[
     int | None, typer.Option(min=1, help="Walk so often, run i with seed S + i; without it, once and in detail.")
 ]
@@ -27,11 +30,21 @@ Growth = Annotated[
 ]
 Engine = Annotated[str, typer.Option(metavar="NAME", help="Of the window: numpy or gtsam (cogmap only).")]
 Jobs = Annotated[int, typer.Option(min=1, help="Processes of a sweep.")]
+Dask = Annotated[
+    str | None,
+    typer.Option(
+        metavar="ADDRESS", help="Run a sweep on the Dask cluster whose scheduler is there, like tcp://host:8786."
+    ),
+]
 Json = Annotated[
     Path | None, typer.Option(metavar="FILE", help="Write the runs as JSON; a list if there are several growths.")
 ]
 Save = Annotated[
     Path | None, typer.Option(metavar="FILE.npz", help="Save the agent (of a sweep, that of its first run).")
+]
+Trace = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE", help="Record the walk (of a sweep, its first) for `cogmap replay`; .gz packs it."),
 ]
 Out = Annotated[
     Path | None,
@@ -50,29 +63,38 @@ def explore_command(
     growth: Growth = "predicted",
     engine: Engine = "numpy",
     jobs: Jobs = 1,
+    dask: Dask = None,
     json: Json = None,
     save: Save = None,
+    trace: Trace = None,
     out: Out = None,
 ) -> None:
     """Explore a maze, until every room was visited and every transition is believed at 0.6 or more.
 
     Exit code 0, or 1 where the one walk (without --runs) did not complete.
     """
+    from ..model.errors import CogmapError
     from ..worlds import load_world
     from .cli_run import Request, run_single, run_sweep
+    from .executors import workers
     from .output import check_outputs, check_picture
+    from .tracing import check_trace
 
     maze = load_world(world).maze
     settings = _settings(growth, look_ahead=look_ahead, policies=policies, engine=engine)
     sweep = runs is not None or len(settings) > 1
     picture = out if sweep or out is not None else Path(f"{maze.name}.png")
-    _check_kept(agent, len(settings), save, out)
-    check_outputs([json, save, picture])
+    _check_kept(agent, len(settings), save, out or trace)
+    check_trace(agent, trace)
+    if dask is not None and not sweep:
+        raise CogmapError("--dask is for sweeps; give --runs as well, or leave --dask out")
+    check_outputs([json, save, trace, picture])
     if picture is not None:
         check_picture(picture)
-    request = Request(maze, agent, seed, max_steps, jobs, json, save, picture)
+    request = Request(maze, agent, seed, max_steps, json, save, trace, picture)
     if sweep:
-        run_sweep(request, settings, runs or 1)
+        with workers(jobs=jobs, dask=dask) as executor:
+            run_sweep(request, settings, runs or 1, executor)
     else:
         run_single(request, settings[0])
 
@@ -97,4 +119,4 @@ def _check_kept(agent: str, growths: int, save: Path | None, out: Path | None) -
     if growths > 1 and agent != "cogmap":
         raise CogmapError(f"agent {agent} does not grow a map; leave --growth out, or use --agent cogmap")
     if growths > 1 and (save or out):
-        raise CogmapError("--save and --out keep one walk; give one --growth, or leave them out")
+        raise CogmapError("--save, --trace and --out keep one walk; give one --growth, or leave them out")

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from .cli_explore import Jobs, LookAhead, Policies, Runs, Seed, World
+from .cli_explore import Dask, Jobs, LookAhead, Policies, Runs, Seed, World
 
 MaxSteps = Annotated[
     int | None,
@@ -24,6 +24,7 @@ def kidnap_command(
     max_steps: MaxSteps = None,
     policies: Policies = "map_guided",
     jobs: Jobs = 1,
+    dask: Dask = None,
     json: Json = None,
 ) -> None:
     """Explore a maze, then be moved to another room without a word: how soon does the agent know where it is?
@@ -34,6 +35,7 @@ def kidnap_command(
     from ..worlds import load_world
     from .cli_progress import counting
     from .cli_table import show_lines
+    from .executors import workers
     from .kidnapping import check_kidnap, kidnap_many, kidnap_result
     from .output import check_outputs, write_json
 
@@ -41,9 +43,12 @@ def kidnap_command(
     settings = Settings(look_ahead=look_ahead, policies=policies)
     check_kidnap(maze)
     check_outputs([json])
-    with counting(f"kidnapping in {maze.name}", runs or 1) as one_more:
+    with (
+        workers(jobs=jobs, dask=dask) as executor,
+        counting(f"kidnapping in {maze.name}", runs or 1) as one_more,
+    ):
         done = kidnap_many(
-            maze, runs=runs or 1, settings=settings, seed=seed, max_steps=max_steps, jobs=jobs, on_done=one_more
+            maze, runs=runs or 1, settings=settings, seed=seed, max_steps=max_steps, executor=executor, on_done=one_more
         )
     result = kidnap_result(maze, done, settings=settings, max_steps=max_steps)
     show_lines(maze.name, _one(result["runs"][0], result["summary"]) if runs is None else _many(result))

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from .cli_explore import Jobs, LookAhead, Policies, Runs, Seed, World
+from .cli_explore import Agent, Dask, Jobs, LookAhead, Policies, Runs, Seed, Trace, World
 from .cli_kidnap import Json, MaxSteps
 
 Goal = Annotated[str, typer.Option(metavar="LABEL", help="The label to go to; the agent is there when it stays.")]
@@ -21,6 +21,7 @@ Weight = Annotated[float, typer.Option(help="W: log preference of the goal over 
 def navigate_command(
     world: World,
     goal: Goal,
+    agent: Agent = "cogmap",
     unexplored: Unexplored = False,
     runs: Runs = None,
     seed: Seed = 0,
@@ -30,7 +31,9 @@ def navigate_command(
     weight: Weight = 8.0,
     close: Close = None,
     jobs: Jobs = 1,
+    dask: Dask = None,
     json: Json = None,
+    trace: Trace = None,
 ) -> None:
     """Explore a maze, be moved to a random room without a word, then go to a sight: in how many steps?
 
@@ -41,44 +44,44 @@ def navigate_command(
     from .cli_progress import counting
     from .cli_table import show_lines
     from .closing import check_closed, parse_rooms
-    from .navigating import check_goal, navigate_many, parse_goal
+    from .executors import workers
+    from .navigating import Options, check_goal, navigate, navigate_many, parse_goal
     from .navigation import navigate_result
     from .output import check_outputs, write_json
+    from .tracing import check_trace, recorder_of, recording
+    from .walkers import check_agent
 
+    check_agent(agent)
+    check_trace(agent, trace)
     maze = load_world(world).maze
-    settings = Settings(look_ahead=look_ahead, policies=policies)
     label, closed = parse_goal(maze, goal), parse_rooms(maze, close or [])
     check_closed(maze, label, closed, known=not unexplored)
     check_goal(maze, label, weight)
-    check_outputs([json])
-    with counting(f"navigating in {maze.name}", runs or 1) as one_more:
-        done = navigate_many(
-            maze,
-            runs=runs or 1,
-            goal=label,
-            known=not unexplored,
-            weight=weight,
-            settings=settings,
-            seed=seed,
-            max_steps=max_steps,
-            closed=closed,
-            jobs=jobs,
-            on_done=one_more,
-        )
-    result = navigate_result(
-        maze,
-        done,
-        goal=label,
-        known=not unexplored,
-        weight=weight,
-        settings=settings,
-        max_steps=max_steps,
-        closed=closed,
-    )
+    check_outputs([json, trace])
+    options: Options = {
+        "goal": label,
+        "known": not unexplored,
+        "weight": weight,
+        "agent": agent,
+        "settings": Settings(look_ahead=look_ahead, policies=policies),
+        "max_steps": max_steps,
+        "closed": closed,
+    }
+    with (
+        workers(jobs=jobs, dask=dask) as executor,
+        counting(f"navigating in {maze.name}", runs or 1) as one_more,
+    ):
+        done = navigate_many(maze, runs=runs or 1, seed=seed, executor=executor, on_done=one_more, **options)
+    result = navigate_result(maze, done, **options)
     show_lines(f"{maze.name}, goal {label}", _one(result) if runs is None else _many(result))
     if json is not None:
         write_json(json, result)
         show_lines(None, [f"runs saved: {json}"])
+    if trace is not None:
+        recorder = recorder_of(maze, title=f"{maze.name}, goal {label}, seed {seed}", goals=[label])
+        navigate(maze, seed=seed, watch=recording(recorder), **options)
+        recorder.save(trace)
+        show_lines(None, [f"trace saved: {trace}"])
     if runs is None and not done[0].reached:
         raise typer.Exit(1)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,13 +11,15 @@ from typing import Any
 import typer
 
 from ..agent import Agent, Settings
-from ..worlds import Maze
+from ..worlds import Maze, MazeEnv
 from .cli_progress import counting, progress
 from .cli_show import show_walk
 from .cli_table import console, show_sweeps
 from .exploring import Walk, walk
 from .output import write_json, write_picture
 from .sweep import exploration, explore_many
+from .tracing import recorder_of, recording
+from .walkers import Walker
 
 NOT_COMPLETE = 1
 
@@ -29,9 +32,9 @@ class Request:
     agent: str
     seed: int
     max_steps: int | None
-    jobs: int
     json: Path | None
     save: Path | None
+    trace: Path | None
     picture: Path | None
 
 
@@ -51,7 +54,7 @@ def run_single(request: Request, settings: Settings) -> None:
         raise typer.Exit(NOT_COMPLETE)
 
 
-def run_sweep(request: Request, settings: Sequence[Settings], runs: int) -> None:
+def run_sweep(request: Request, settings: Sequence[Settings], runs: int, executor: Executor | None) -> None:
     """Walk `runs` times with each of the settings, and compare them in a table."""
     results: list[dict[str, Any]] = []
     with counting(f"exploring {request.maze.name}", runs * len(settings)) as one_more:
@@ -63,27 +66,38 @@ def run_sweep(request: Request, settings: Sequence[Settings], runs: int) -> None
                 settings=setting,
                 seed=request.seed,
                 max_steps=request.max_steps,
-                jobs=request.jobs,
+                executor=executor,
                 on_done=one_more,
             )
             results.append(
                 exploration(request.maze, part, agent=request.agent, settings=setting, max_steps=request.max_steps)
             )
     show_sweeps(results)
-    again = request.save is not None or request.picture is not None
+    again = any(file is not None for file in (request.save, request.trace, request.picture))
     _keep(request, results, _walk(request, settings[0]) if again else None)
 
 
 def _walk(request: Request, settings: Settings) -> Walk:
+    recorder = recorder_of(request.maze, title=f"{request.maze.name}, seed {request.seed}")
+    record = recording(recorder) if request.trace is not None else None
     with progress(f"exploring {request.maze.name}, rooms", len(request.maze.rooms)) as report:
-        return walk(
+
+        def watch(walker: Walker, world: MazeEnv, entered: int) -> None:
+            report(entered)
+            if record is not None:
+                record(walker, world, entered)
+
+        done = walk(
             request.maze,
             agent=request.agent,
             settings=settings,
             seed=request.seed,
             max_steps=request.max_steps,
-            watch=lambda _, rooms: report(rooms),
+            watch=watch,
         )
+    if request.trace is not None:
+        recorder.save(request.trace)
+    return done
 
 
 def _keep(request: Request, results: list[dict[str, Any]], done: Walk | None) -> None:
@@ -95,6 +109,8 @@ def _keep(request: Request, results: list[dict[str, Any]], done: Walk | None) ->
     if done is not None and request.save is not None and isinstance(done.walker, Agent):
         done.walker.save(request.save)
         written.append(("agent", request.save))
+    if done is not None and request.trace is not None:
+        written.append(("trace", request.trace))
     if done is not None and request.picture is not None:
         with progress("drawing", 1):
             write_picture(request.picture, _figure(request, done))

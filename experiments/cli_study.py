@@ -1,23 +1,37 @@
-"""`cogmap study`: a study of the paper, its rows as JSON and its figures in a folder."""
+"""`cogmap study`: a study of the paper, or all; rows, tables, figures and a report in a folder."""
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from .cli_explore import Jobs, Seed
 
+if TYPE_CHECKING:
+    from .ledger import Ledger
+    from .studies.everything import Asked, Outcome
+    from .studies.frame import Study
+
 Name = Annotated[
     str,
     typer.Argument(
-        metavar="NAME", help="Which study: localisation, goals, donut, tolman, martinet or insight.", show_default=False
+        metavar="NAME",
+        help="exploration, rooms, growth, cost, localisation, goals, donut, tolman, martinet or insight; or all.",
+        show_default=False,
     ),
 ]
 Agents = Annotated[
     int | None,
-    typer.Option("--runs", "--agents", min=1, help="How many agents take part; the study's own number unless given."),
+    typer.Option(
+        "--runs",
+        "--agents",
+        min=1,
+        help="How many agents (of each kind) take part; the study's own number unless given.",
+    ),
 ]
 Out = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Folder to write in; study-NAME in this folder unless given.")
@@ -25,6 +39,12 @@ Out = Annotated[
 LookAhead = Annotated[
     int | None, typer.Option(min=1, help="L: steps that a policy looks ahead; the study's own unless given.")
 ]
+Dask = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="Work on the cluster of a Dask scheduler, such as tcp://host:8786."),
+]
+
+SOME_FAILED = 1
 
 
 def study_command(
@@ -34,20 +54,81 @@ def study_command(
     out: Out = None,
     look_ahead: LookAhead = None,
     jobs: Jobs = 1,
+    dask: Dask = None,
 ) -> None:
-    """Run a study of the paper; its rows are written as JSON, its figures as PNG and SVG."""
-    from .cli_progress import counting, progress
-    from .cli_table import show_lines
-    from .studies.frame import check_folder, save_study, study_named, study_report
+    """Run a study of the paper; rows (JSON), tables (CSV), figures and a report (Markdown, HTML) are written.
 
+    exploration, rooms and growth keep every finished run in DIR/cells.jsonl: the same command goes on from there.
+    """
+    from .studies.everything import Asked
+    from .studies.frame import EVERYTHING, STUDIES, study_named
+    from .studies.saving import check_folder
+
+    folder, asked = out or Path(f"study-{name}"), Asked(runs, seed, look_ahead)
+    if name == EVERYTHING:
+        check_folder(folder, "index")
+        for study in STUDIES.values():
+            study.settings(look_ahead)
+            check_folder(folder / study.name, study.name)
+        _all(folder, asked, jobs, dask)
+        return
     study = study_named(name)
-    agents, folder = runs or study.agents, out or Path(f"study-{name}")
-    settings = study.settings(look_ahead)
+    study.settings(look_ahead)
     check_folder(folder, name)
-    with counting(f"studying {name}, agents", agents) as one_more:
-        result = study.run(agents=agents, seed=seed, look_ahead=look_ahead, jobs=jobs, on_done=one_more)
-    show_lines(name, study.lines(result))
-    report = study_report(study, result, agents=agents, seed=seed, settings=settings)
-    with progress("drawing", 1):
-        written = save_study(folder, study, result, report)
-    show_lines(None, [f"written: {path}" for path in written])
+    _one(study, folder, asked, jobs, dask)
+
+
+def _one(study: Study, folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
+    from .cli_progress import counting
+    from .executors import workers
+    from .studies.everything import run_study
+
+    with workers(jobs=jobs, dask=dask) as executor, _kept(study, folder, asked) as ledger:
+        outcome = run_study(study, folder, asked, counter=counting, executor=executor, ledger=ledger)
+    _show(outcome)
+
+
+def _all(folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
+    from .cli_progress import counting
+    from .cli_table import show_lines
+    from .executors import workers
+    from .studies.everything import try_study, write_index
+    from .studies.frame import STUDIES
+
+    outcomes: list[Outcome] = []
+    keeper = next((study for study in STUDIES.values() if study.keeps_cells), None)
+    with workers(jobs=jobs, dask=dask) as executor, _kept(keeper, folder, asked) as ledger:
+        for study in STUDIES.values():
+            below = folder / study.name
+            outcomes.append(try_study(study, below, asked, counter=counting, executor=executor, ledger=ledger))
+            _show(outcomes[-1])
+    show_lines(None, [f"written: {path}" for path in write_index(folder, outcomes, asked)])
+    if any(outcome.failure for outcome in outcomes):
+        raise typer.Exit(SOME_FAILED)
+
+
+def _show(outcome: Outcome) -> None:
+    from .cli_table import console, show_lines
+
+    if outcome.failure is None:
+        show_lines(outcome.study.name, [*outcome.lines, *(f"written: {path}" for path in outcome.written)])
+    else:
+        text = f"{outcome.study.name} failed: {outcome.failure}"
+        console().print(text, style="bold red", markup=False, highlight=False, soft_wrap=True)
+
+
+@contextmanager
+def _kept(study: Study | None, folder: Path, asked: Asked) -> Generator[Ledger | None]:
+    """The ledger in the folder, if the study keeps one; on Ctrl-C it is said where the finished runs are."""
+    from .cli_group import INTERRUPTED, fail
+    from .studies.grid import ledger_in
+
+    if study is None or not study.keeps_cells:
+        yield None
+        return
+    with ledger_in(folder, study.settings(asked.look_ahead)) as ledger:
+        try:
+            yield ledger
+        except KeyboardInterrupt:
+            again = "the same command goes on from there"
+            fail(f"interrupted; the finished runs are kept in {ledger.path}; {again}", code=INTERRUPTED)

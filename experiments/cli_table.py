@@ -20,7 +20,7 @@ def show_sweeps(results: Sequence[dict[str, Any]]) -> None:
     """A line for each sweep: how many completed, and after how many steps (mean ± standard deviation)."""
     first = results[0]
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    table.add_column("growth" if first["settings"] else "agent", no_wrap=True)
+    table.add_column("growth" if "growth" in first["settings"] else "agent", no_wrap=True)
     for name in ("done", "visit all", "learn", "complete", "oracle", "ratio"):
         table.add_column(name, justify="right", no_wrap=True)
     for result in results:

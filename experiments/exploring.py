@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from ..agent import Agent, Settings
+from ..agent import Settings
+from ..baselines import CscgSettings
 from ..model.errors import CogmapError
 from ..worlds import Maze, MazeEnv, Position
 from .knowledge import Truth
 from .oracle import frontier_steps, oracle_steps
-from .walkers import Walker, check_agent, fitted, make_walker
+from .walkers import Seeker, Walker, check_agent, make_walker, sensed
 
-Watch = Callable[[int, int], None]
-"""Called after every observation with the steps made and the rooms visited."""
+Watch = Callable[[Walker, MazeEnv, int], None]
+"""Called after every choice, before it is carried out, with the agent, the world, and the number of rooms entered."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,8 +29,7 @@ class ExploreRun:
         seed: of the start room and of the agent.
         start: the first room.
         steps_to_visit_all: until every room had been entered, and the agent's map had it as visited.
-        steps_to_learn: until every true transition was believed at 0.6 or more; also None for an agent that
-            keeps no transitions.
+        steps_to_learn: until every true transition was believed at 0.6 or more.
         steps_to_complete: until both held at once.
         oracle_steps: of the shortest walk through all rooms; None where it is out of reach.
         seconds: of the walk, the oracle left out.
@@ -42,7 +42,7 @@ class ExploreRun:
     steps_to_learn: int | None
     steps_to_complete: int | None
     oracle_steps: int | None
-    seconds: float
+    seconds: float = field(compare=False)
     frontier_steps: int | None = None
 
     def to_dict(self) -> dict[str, Any]:
@@ -61,13 +61,16 @@ class Walk:
         run: its figures.
         path: the true rooms, the start first.
         walker: the agent, after its last observation.
-        finished: whether it completed, or visited every room if it keeps no transitions.
     """
 
     run: ExploreRun
     path: tuple[Position, ...]
-    walker: Walker
-    finished: bool
+    walker: Seeker
+
+    @property
+    def finished(self) -> bool:
+        """Whether it completed."""
+        return self.run.steps_to_complete is not None
 
 
 def explore(
@@ -75,11 +78,12 @@ def explore(
     *,
     agent: str = "cogmap",
     settings: Settings | None = None,
+    cscg: CscgSettings | None = None,
     seed: int = 0,
     max_steps: int | None = None,
 ) -> ExploreRun:
     """The figures of `walk`."""
-    return walk(maze, agent=agent, settings=settings, seed=seed, max_steps=max_steps).run
+    return walk(maze, agent=agent, settings=settings, cscg=cscg, seed=seed, max_steps=max_steps).run
 
 
 def walk(
@@ -87,6 +91,7 @@ def walk(
     *,
     agent: str = "cogmap",
     settings: Settings | None = None,
+    cscg: CscgSettings | None = None,
     seed: int = 0,
     max_steps: int | None = None,
     watch: Watch | None = None,
@@ -96,10 +101,11 @@ def walk(
     Args:
         maze: the layout, everything open.
         agent: a name in `AGENTS`.
-        settings: of the agent; static growth gets the number of rooms.
+        settings: of the agent `cogmap`; static growth gets the number of rooms.
+        cscg: settings of the clone-structured graphs.
         seed: of the start room and of the agent, which get streams of their own.
         max_steps: moves after which to give up, `default_steps(maze)` unless given.
-        watch: is told how far it is.
+        watch: looks on.
 
     Raises:
         CogmapError: unknown agent, a negative seed, or `max_steps` below 1.
@@ -107,15 +113,13 @@ def walk(
     check_agent(agent)
     most = checked_steps("explore", maze, max_steps)
     start, for_agent, _ = draw_start("explore", maze, seed)
-    walker = make_walker(agent, settings=fitted(settings or Settings(), maze), seed=for_agent)
+    walker = make_walker(agent, maze, settings=settings, cscg=cscg, seed=for_agent)
     begin = perf_counter()
-    path, firsts = go(maze, start, walker, most, watch)
+    path, _, firsts = go(maze, start, walker, most, watch)
     seconds = perf_counter() - begin
     oracle = oracle_steps(maze, start)
     instead = frontier_steps(maze, start) if oracle is None else None
-    run = ExploreRun(seed, start, *firsts, oracle, seconds, instead)
-    needed = "steps_to_visit_all" if _learned(Truth(maze, start), walker) is None else "steps_to_complete"
-    return Walk(run, tuple(path), walker, finished=getattr(run, needed) is not None)
+    return Walk(ExploreRun(seed, start, *firsts, oracle, seconds, instead), tuple(path), walker)
 
 
 def default_steps(maze: Maze) -> int:
@@ -153,36 +157,25 @@ Firsts = tuple[int | None, int | None, int | None]
 
 def go(
     maze: Maze, start: Position, walker: Walker, most: int, watch: Watch | None = None
-) -> tuple[list[Position], Firsts]:
-    """The walk: its rooms, and the steps to visit all, to learn, and to complete."""
+) -> tuple[list[Position], int, Firsts]:
+    """The walk: its rooms, the action chosen last, and the steps to visit all, to learn, and to complete."""
     world, truth = MazeEnv(maze), Truth(maze, start)
+    number = {room: i for i, room in enumerate(maze.rooms)}
     observation, _ = world.reset(options={"start": start})
-    path, entered = [start], {start}
+    path, rooms, entered, step = [start], [number[start]], {start}, 0
     visit_all = learn = complete = None
-    for step in range(most + 1):
-        action = walker.step(observation)
-        visited = len(entered) == len(maze.rooms) and _visited(truth, walker)
-        learned = _learned(truth, walker)
+    while True:
+        action = walker.step(sensed(walker, observation, path[-1]))
+        visited, learned = truth.visited_by(walker, len(entered)), truth.learned_by(walker, rooms)
         visit_all = step if visited and visit_all is None else visit_all
         learn = step if learned and learn is None else learn
         complete = step if visited and learned else None
         if watch is not None:
-            watch(step, len(entered))
-        if step == most or (visited and learned is not False):
-            break
+            watch(walker, world, len(entered))
+        if step == most or complete is not None:
+            return path, action, (visit_all, learn, complete)
         observation, _, _, _, info = world.step(action)
         path.append(info["position"])
+        rooms.append(number[info["position"]])
         entered.add(info["position"])
-    return path, (visit_all, learn, complete)
-
-
-def _visited(truth: Truth, walker: Walker) -> bool:
-    return truth.visited(walker.map) if isinstance(walker, Agent) else True
-
-
-def _learned(truth: Truth, walker: Walker) -> bool | None:
-    """Whether the agent knows every transition; None if it keeps no transitions."""
-    if isinstance(walker, Agent):
-        return truth.learned(walker.map)
-    edges = getattr(walker, "edges", None)
-    return None if edges is None else truth.known(edges)
+        step += 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any
@@ -92,16 +93,16 @@ def kidnap_many(
     settings: Settings | None = None,
     seed: int = 0,
     max_steps: int | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> list[KidnapRun]:
-    """Runs with the seeds `seed`, `seed + 1`, ...; the result does not depend on `jobs`.
+    """Runs with the seeds `seed`, `seed + 1`, ...; the result does not depend on `executor`.
 
     Raises:
         CogmapError: `runs` is below 1, or what `kidnap` and `map_tasks` raise.
     """
     one = partial(_one, maze, settings, max_steps)
-    return map_seeds(one, runs=runs, seed=seed, jobs=jobs, on_done=on_done)
+    return map_seeds(one, runs=runs, seed=seed, executor=executor, on_done=on_done)
 
 
 def kidnap_result(

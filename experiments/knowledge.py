@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..agent import Agent
+from ..baselines import CscgAgent
 from ..model import CognitiveMap
 from ..worlds import GRID, Maze, Position
+
+if TYPE_CHECKING:
+    from .walkers import Walker
 
 BELIEVED = 0.6
 """A true transition counts as learned from this probability on."""
@@ -47,6 +54,28 @@ class Truth:
     def learned(self, map_: CognitiveMap) -> bool:
         """Whether every true transition is believed at `BELIEVED` or more."""
         return self.least(map_) >= BELIEVED
+
+    def visited_by(self, walker: Walker, entered: int) -> bool:
+        """Whether it has `entered` as many rooms as there are and, if it keeps a map, has them all there as visited."""
+        return entered == len(self._names) and (not isinstance(walker, Agent) or self.visited(walker.map))
+
+    def learned_by(self, walker: Walker, rooms: Sequence[int]) -> bool:
+        """Whether the walker believes every true transition.
+
+        Args:
+            walker: has a map, clones, or `edges` (see `known`); without any of them it knows nothing.
+            rooms: the number of the room, in the order of `Maze.rooms`, in which it was at each step.
+        """
+        if isinstance(walker, Agent):
+            return self.learned(walker.map)
+        if isinstance(walker, CscgAgent):
+            return self.believed(walker.place_transitions(rooms, len(self._names)), walker.tries)
+        return self.known(getattr(walker, "edges", {}))
+
+    def believed(self, B: NDArray[np.float64], actions: Sequence[int]) -> bool:
+        """Whether `B[next room, room, action]` gives every true transition by these actions `BELIEVED` or more."""
+        rooms = np.arange(len(self._names))
+        return all(bool((B[self._target[:, action], rooms, action] >= BELIEVED).all()) for action in actions)
 
     def known(self, edges: Mapping[tuple[tuple[int, ...], int], tuple[int, ...]]) -> bool:
         """Whether `edges`, {(place, action): place} relative to the start, hold every true transition."""

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import asdict, dataclass
 from functools import partial
 from math import inf
-from typing import Any
+from typing import Any, Required, TypedDict, Unpack
 
-from ..agent import Settings, StepRecord
-from ..baselines import FrontierAgent
+from ..agent import Settings
+from ..baselines import CscgSettings, FrontierAgent
 from ..model.errors import CogmapError
 from ..worlds import GRID, Label, Maze, MazeEnv, Position
 from .closing import check_closed, shortest
-from .exploring import checked_steps, draw_start
+from .exploring import Watch, checked_steps, draw_start
 from .pool import map_seeds
-from .session import Session, explored, unexplored
+from .session import Outing, outing, walked
+from .walkers import sensed
 
 WEIGHT = 8.0
 """Log preference of the goal over all other sights, in nats a step: more than a step into a room never seen can teach,
 log of the number of sights and log 2 for each of its three other doors, up to 370 sights."""
+
+STAY = GRID.names.index("stay")
 
 MOST_LABELS = 40  # listed in an error
 
@@ -70,10 +74,13 @@ def navigate(
     goal: Label,
     known: bool = True,
     weight: float = WEIGHT,
+    agent: str = "cogmap",
     settings: Settings | None = None,
+    cscg: CscgSettings | None = None,
     seed: int = 0,
     max_steps: int | None = None,
     closed: Sequence[Position] = (),
+    watch: Watch | None = None,
 ) -> NavigateRun:
     """Let an agent go to a sight.
 
@@ -83,32 +90,35 @@ def navigate(
         known: whether it explores first and is then silently moved to a random room, with nothing reset; otherwise
             it prefers the goal from its first step in an unknown maze.
         weight: log preference of the goal, in nats.
-        settings: of the agent; static growth gets the number of rooms.
+        agent: a name in `AGENTS`.
+        settings: of the agent `cogmap`; static growth gets the number of rooms.
+        cscg: settings of the clone-structured graphs.
         seed: of everything random; start and exploring are those of `explore` with the same seed.
         max_steps: moves after which to give up exploring, and again navigating; `default_steps(maze)` unless given.
         closed: rooms that are closed while it is moved, after exploring with everything open.
+        watch: looks on, from the first step to the last.
 
     Raises:
-        CogmapError: no room has the label, a weight that is not above 0, a negative seed, `max_steps` below 1, or
-            rooms that cannot be closed (see `check_closed`).
+        CogmapError: no room has the label, a weight that is not above 0, no agent has the name, a negative seed,
+            `max_steps` below 1, or rooms that cannot be closed (see `check_closed`).
     """
     check_goal(maze, goal, weight)
     check_closed(maze, goal, closed, known=known)
     most = checked_steps("navigate", maze, max_steps)
+    out = outing("navigate", maze, agent=agent, settings=settings, cscg=cscg, seed=seed)
     if not known:
-        session = unexplored("navigate", maze, settings=settings, seed=seed)
-        steps, least = _reach(session, goal, weight, most), shortest(maze, session.start, goal)
-        stood, frontier = _first(goal, session.agent.trace), frontier_to(maze, goal, seed=seed)
-        return NavigateRun(seed, session.start, steps is not None, steps, least, None, None, frontier, stood)
-    session = explored("navigate", maze, settings=settings, seed=seed, most=most)
-    if session.steps is None:
-        return NavigateRun(seed, None, False, None, None, session.start)
-    room, before = session.displace(elsewhere=False, but=closed), session.agent.steps
+        steps, stood = _reach(out, goal, weight, most, watch)
+        least, frontier = shortest(maze, out.start, goal), frontier_to(maze, goal, seed=seed)
+        return NavigateRun(seed, out.start, steps is not None, steps, least, None, None, frontier, stood)
+    out = walked(out, most, watch)
+    if out.steps is None:
+        return NavigateRun(seed, None, False, None, None, out.start)
+    room = out.displace(elsewhere=False, but=closed)
     for shut in closed:
-        session.world.close_room(shut)
-    steps, least = _reach(session, goal, weight, most), shortest(maze, room, goal, closed)
-    stood = _first(goal, session.agent.trace[before:])
-    return NavigateRun(seed, room, steps is not None, steps, least, session.start, session.steps, steps_to_stand=stood)
+        out.world.close_room(shut)
+    steps, stood = _reach(out, goal, weight, most, watch)
+    least = shortest(maze, room, goal, closed)
+    return NavigateRun(seed, room, steps is not None, steps, least, out.start, out.steps, steps_to_stand=stood)
 
 
 def check_goal(maze: Maze, goal: Label, weight: float = WEIGHT) -> None:
@@ -138,27 +148,34 @@ def parse_goal(maze: Maze, text: str) -> Label:
     return goal
 
 
+class Options(TypedDict, total=False):
+    """What `navigate` can be told besides maze and seed."""
+
+    goal: Required[Label]
+    known: bool
+    weight: float
+    agent: str
+    settings: Settings | None
+    cscg: CscgSettings | None
+    max_steps: int | None
+    closed: Sequence[Position]
+
+
 def navigate_many(
     maze: Maze,
     *,
     runs: int,
-    goal: Label,
-    known: bool = True,
-    weight: float = WEIGHT,
-    settings: Settings | None = None,
     seed: int = 0,
-    max_steps: int | None = None,
-    closed: Sequence[Position] = (),
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
+    **options: Unpack[Options],
 ) -> list[NavigateRun]:
-    """Runs with the seeds `seed`, `seed + 1`, ...; the result does not depend on `jobs`.
+    """Runs with the seeds `seed`, `seed + 1`, ..., and the options of `navigate`; the same whatever `executor`.
 
     Raises:
         CogmapError: `runs` is below 1, or what `navigate` and `map_tasks` raise.
     """
-    one = partial(_one, maze, goal, known, weight, settings, max_steps, tuple(closed))
-    return map_seeds(one, runs=runs, seed=seed, jobs=jobs, on_done=on_done)
+    return map_seeds(partial(_one, maze, options), runs=runs, seed=seed, executor=executor, on_done=on_done)
 
 
 def frontier_to(maze: Maze, goal: Label, *, seed: int) -> int:
@@ -173,34 +190,24 @@ def frontier_to(maze: Maze, goal: Label, *, seed: int) -> int:
     return steps
 
 
-def _one(
-    maze: Maze,
-    goal: Label,
-    known: bool,
-    weight: float,
-    settings: Settings | None,
-    max_steps: int | None,
-    closed: tuple[Position, ...],
-    seed: int,
-) -> NavigateRun:
-    return navigate(
-        maze, goal=goal, known=known, weight=weight, settings=settings, seed=seed, max_steps=max_steps, closed=closed
-    )
+def _one(maze: Maze, options: Options, seed: int) -> NavigateRun:
+    return navigate(maze, seed=seed, **options)
 
 
-def _reach(session: Session, goal: Label, weight: float, most: int) -> int | None:
-    """Steps before it chooses to stay in a room with the sight."""
-    agent, world = session.agent, session.world
-    agent.prefer({goal: weight})
+def _reach(
+    out: Outing, goal: Label, weight: float, most: int, watch: Watch | None = None
+) -> tuple[int | None, int | None]:
+    """Steps before it chooses to stay in a room with the sight, and before it first stands in one."""
+    out.agent.prefer({goal: weight})
+    stood: int | None = None
     for step in range(most + 1):
-        observation = world.observe()
-        action = agent.step(observation)
-        if action == agent.map.motions.stay and observation["sight"] == goal:
-            return step
-        world.step(action)
-    return None
-
-
-def _first(goal: Label, trace: Sequence[StepRecord]) -> int | None:
-    """Steps before the sight was first seen."""
-    return next((step for step, record in enumerate(trace) if record.sight == goal), None)
+        observation = out.world.observe()
+        action = out.agent.step(sensed(out.agent, observation, out.world.position))
+        if watch is not None:
+            watch(out.agent, out.world, len(out.world.maze.rooms))
+        there = observation["sight"] == goal
+        stood = step if there and stood is None else stood
+        if there and action == STAY:
+            return step, stood
+        out.world.step(action)
+    return None, stood

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..model.errors import CogmapError
+from ..model.files import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -66,28 +67,6 @@ def write_picture(path: Path, figure: Figure) -> None:
         warnings.filterwarnings("ignore", "Glyph")  # signs that the font lacks are drawn as boxes
         figure.savefig(buffer, format=path.suffix.lower().removeprefix("."))
     write_whole(path, buffer.getvalue())
-
-
-def write_whole(path: Path, content: bytes) -> None:
-    """Replace the file at once, through a temporary one in the same folder.
-
-    Raises:
-        CogmapError: the file cannot be written; what was there before still is.
-    """
-    target = Path(os.path.realpath(path))  # a link stays a link
-    temporary = ""
-    try:
-        handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:80]}.", suffix=".part")
-        with os.fdopen(handle, "wb") as file:
-            file.write(content)
-        os.chmod(temporary, 0o644)  # mkstemp lets nobody else read
-        os.replace(temporary, target)
-    except BaseException as error:
-        if temporary:
-            Path(temporary).unlink(missing_ok=True)
-        if isinstance(error, OSError):
-            raise CogmapError(f"cannot write {path} ({error.strerror or error}); choose another file") from error
-        raise
 
 
 def _check(path: Path, target: Path) -> None:

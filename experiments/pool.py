@@ -1,14 +1,11 @@
-"""The same function on many tasks, on one or several processes."""
+"""The same function on many tasks, wherever they are run."""
 
 from __future__ import annotations
 
-import multiprocessing
-import signal
-from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
-from typing import TypeVar
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, as_completed
+from typing import Any, TypeVar
 
 from ..model.errors import CogmapError
 
@@ -16,43 +13,64 @@ Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 
+class WorkerLostError(CogmapError):
+    """A worker ended before its task did."""
+
+
+def completed(
+    function: Callable[[Task], Result], tasks: Sequence[Task], *, executor: Executor | None = None
+) -> Iterator[tuple[int, Result]]:
+    """(index of the task, result) as they finish.
+
+    Closing the iterator, or an error of any task, cancels what has not begun.
+
+    Args:
+        function: must be importable unless it runs in this process, and its tasks and results must pickle.
+        tasks: one argument each.
+        executor: any of `concurrent.futures`; None: in this process, one after another, each when it is asked for.
+
+    Raises:
+        WorkerLostError: a worker was killed, or its cluster is gone.
+    """
+    if executor is None:
+        for index, task in enumerate(tasks):
+            yield index, function(task)
+        return
+    indices: dict[Future[Result], int] = {}
+    try:
+        for index, task in enumerate(tasks):
+            indices[executor.submit(function, task)] = index
+        yield from _results(indices)
+    except BrokenExecutor as error:
+        raise WorkerLostError("a worker process was killed, perhaps out of memory; use fewer jobs") from error
+    except _dask_errors() as error:
+        raise WorkerLostError("the Dask cluster lost its scheduler, or workers again and again") from error
+    finally:
+        for future in indices:
+            future.cancel()
+
+
 def map_tasks(
     function: Callable[[Task], Result],
     tasks: Sequence[Task],
     *,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> list[Result]:
-    """Results in the order of the tasks, whatever the number of processes.
+    """Results in the order of the tasks, whatever the executor; see `completed`.
 
     Args:
-        function: must be importable if `jobs` is above 1, and its tasks and results must pickle.
-        tasks: one argument each.
-        jobs: processes at most. Above 1 they are spawned, so a script needs `if __name__ == "__main__":`.
+        function: as there.
+        tasks: as there.
+        executor: as there.
         on_done: called after each task.
-
-    Raises:
-        CogmapError: `jobs` is below 1, or a process was killed.
     """
-    if jobs < 1:
-        raise CogmapError(f"jobs is {jobs}; use 1 or more")
-    done = on_done or _nothing
-    if jobs == 1 or len(tasks) < 2:
-        results: list[Result] = []
-        for task in tasks:
-            results.append(function(task))
-            done()
-        return results
-    with _workers(min(jobs, len(tasks))) as pool:
-        with _interrupts_blocked():
-            futures = [pool.submit(function, task) for task in tasks]
-        left: set[Future[Result]] = set(futures)
-        while left:
-            finished, left = wait(left, return_when=FIRST_COMPLETED)
-            for future in finished:
-                future.result()  # raises here and now what the task raised
-                done()
-        return [future.result() for future in futures]
+    results: dict[int, Result] = {}
+    for index, result in completed(function, tasks, executor=executor):
+        results[index] = result
+        if on_done is not None:
+            on_done()
+    return [results[index] for index in range(len(tasks))]
 
 
 def map_seeds(
@@ -60,7 +78,7 @@ def map_seeds(
     *,
     runs: int,
     seed: int = 0,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> list[Result]:
     """Results of the seeds `seed`, `seed + 1`, ..., so that each run can be repeated alone; see `map_tasks`.
@@ -70,40 +88,32 @@ def map_seeds(
     """
     if runs < 1:
         raise CogmapError(f"runs is {runs}; use 1 or more")
-    return map_tasks(function, range(seed, seed + runs), jobs=jobs, on_done=on_done)
+    return map_tasks(function, range(seed, seed + runs), executor=executor, on_done=on_done)
 
 
-@contextmanager
-def _workers(count: int) -> Generator[ProcessPoolExecutor]:
-    """A pool that is ended at once, not after its last task, when something goes wrong."""
-    others = set(multiprocessing.active_children())
-    # spawned, since a progress bar has a thread and threads do not survive a fork
-    pool = ProcessPoolExecutor(count, mp_context=multiprocessing.get_context("spawn"))
+def _results(indices: Mapping[Future[Result], int]) -> Iterator[tuple[int, Result]]:
+    """As they finish; at the first error those that are there, then the error."""
+    left, failure = dict(indices), None
+    for future in as_completed(indices):
+        failure = _failure(future)
+        if failure is not None:
+            break
+        yield left.pop(future), future.result()
+    for future, index in left.items():
+        if future.done() and _failure(future) is None:
+            yield index, future.result()
+    if failure is not None:
+        raise failure
+
+
+def _failure(future: Future[Any]) -> BaseException | None:
     try:
-        yield pool
-    except BaseException as error:
-        pool.shutdown(wait=False, cancel_futures=True)
-        for worker in set(multiprocessing.active_children()) - others:
-            worker.terminate()
-        if isinstance(error, BrokenProcessPool):
-            raise CogmapError("a worker process was killed, perhaps out of memory; use fewer jobs") from error
-        raise
-    finally:
-        pool.shutdown()
+        return future.exception()
+    except CancelledError as error:
+        return error
 
 
-@contextmanager
-def _interrupts_blocked() -> Generator[None]:
-    """Processes started here never see Ctrl-C: this one does, and ends them."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _nothing() -> None:
-    pass
+def _dask_errors() -> tuple[type[BaseException], ...]:
+    """What a future of Dask raises where workers or scheduler have gone, if Dask is in use."""
+    dask: Any = sys.modules.get("distributed")
+    return () if dask is None else (CancelledError, dask.KilledWorker)

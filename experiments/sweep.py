@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..agent import Settings
+from ..baselines import CscgSettings
 from ..worlds import Maze
-from .exploring import ExploreRun, default_steps, explore
+from .cells import Cell, run_cell
+from .exploring import ExploreRun, default_steps
 from .pool import map_seeds
-from .walkers import fitted
+from .walkers import settings_of
 
 
 def explore_many(
@@ -21,21 +24,23 @@ def explore_many(
     runs: int,
     agent: str = "cogmap",
     settings: Settings | None = None,
+    cscg: CscgSettings | None = None,
     seed: int = 0,
     max_steps: int | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> list[ExploreRun]:
     """Runs with the seeds `seed`, `seed + 1`, ...; each can be walked again alone with its seed.
 
-    But for `seconds` the result does not depend on `jobs`. The other arguments are those of `explore` and
+    But for `seconds` the result does not depend on `executor`. The other arguments are those of `explore` and
     `map_tasks`.
 
     Raises:
         CogmapError: `runs` is below 1, or what those raise.
     """
-    one = partial(_one, maze, agent, settings, max_steps)
-    return map_seeds(one, runs=runs, seed=seed, jobs=jobs, on_done=on_done)
+    growth = (settings or Settings()).growth
+    one = partial(_one, maze, agent, growth, {"settings": settings, "cscg": cscg, "max_steps": max_steps})
+    return map_seeds(one, runs=runs, seed=seed, executor=executor, on_done=on_done)
 
 
 def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
@@ -67,21 +72,27 @@ def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
 
 
 def exploration(
-    maze: Maze, runs: Sequence[ExploreRun], *, agent: str, settings: Settings, max_steps: int | None = None
+    maze: Maze,
+    runs: Sequence[ExploreRun],
+    *,
+    agent: str,
+    settings: Settings | None = None,
+    cscg: CscgSettings | None = None,
+    max_steps: int | None = None,
 ) -> dict[str, Any]:
-    """World, agent, settings (none for a baseline), runs and summary, as plain JSON values."""
+    """World, agent, settings (none for a baseline that has none), runs and summary, as plain JSON values."""
     most = default_steps(maze) if max_steps is None else max_steps
     return {
         "world": maze.name,
         "agent": agent,
-        "settings": fitted(settings, maze).to_dict() if agent == "cogmap" else {},
+        "settings": settings_of(agent, maze, settings, cscg),
         "runs": [run.to_dict() for run in runs],
         "summary": summarise(runs, max_steps=most),
     }
 
 
-def _one(maze: Maze, agent: str, settings: Settings | None, max_steps: int | None, seed: int) -> ExploreRun:
-    return explore(maze, agent=agent, settings=settings, seed=seed, max_steps=max_steps)
+def _one(maze: Maze, agent: str, growth: str, options: dict[str, Any], seed: int) -> ExploreRun:
+    return run_cell(Cell(maze, agent, seed, growth), **options).run
 
 
 def _ratio(done: Sequence[ExploreRun]) -> float:

@@ -18,6 +18,7 @@ from cogmap.experiments import (
     summarise,
     walk,
 )
+from cogmap.experiments.executors import workers
 from cogmap.model import CogmapError
 from cogmap.worlds import MAZES, hall, parse_maze
 
@@ -60,16 +61,17 @@ def test_run_i_has_seed_s_plus_i() -> None:
     assert untimed(runs) == untimed([explore(MAZES["3x3"], seed=seed) for seed in (10, 11, 12)])
 
 
-def test_jobs_do_not_change_the_rows() -> None:
+def test_processes_do_not_change_the_rows() -> None:
     calls: list[int] = []
-    several = explore_many(MAZES["3x3"], runs=3, seed=1, jobs=2, on_done=lambda: calls.append(1))
+    with workers(jobs=2) as executor:
+        several = explore_many(MAZES["3x3"], runs=3, seed=1, executor=executor, on_done=lambda: calls.append(1))
     assert untimed(several) == untimed(explore_many(MAZES["3x3"], runs=3, seed=1))
     assert len(calls) == 3
 
 
 def test_an_error_in_a_worker_arrives() -> None:
-    with pytest.raises(ValueError, match=r"math domain error|nonnegative"):
-        map_tasks(_root, [1.0, -1.0], jobs=2)
+    with pytest.raises(ValueError, match=r"math domain error|nonnegative"), workers(jobs=2) as executor:
+        map_tasks(_root, [1.0, -1.0], executor=executor)
 
 
 def _root(value: float) -> float:
@@ -96,11 +98,17 @@ def test_a_walk_that_takes_exactly_max_steps_counts() -> None:
     assert explore(MAZES["3x3"], seed=0, max_steps=steps - 1).steps_to_complete is None
 
 
-def test_without_transitions_the_walk_ends_with_the_last_visit(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delattr(RandomAgent, "edges", raising=False)
+def test_a_random_walk_ends_with_the_last_visit_since_it_senses_the_doors() -> None:
     done = walk(MAZES["3x3"], agent="random", seed=0)
     assert done.finished
-    assert done.run.steps_to_visit_all == len(done.path) - 1
+    assert done.run.steps_to_visit_all == done.run.steps_to_learn == len(done.path) - 1
+
+
+def test_without_transitions_nothing_is_learned(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(RandomAgent, "edges")
+    done = walk(MAZES["3x3"], agent="random", seed=0, max_steps=60)
+    assert not done.finished
+    assert done.run.steps_to_visit_all == 19
     assert done.run.steps_to_learn is None
 
 
@@ -175,7 +183,6 @@ def test_bad_walks_are_refused(options: dict[str, object], message: str) -> None
         explore(ONE, **options)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("options", "message"), [({"runs": 0}, "runs is 0"), ({"runs": 1, "jobs": 0}, "jobs is 0")])
-def test_bad_sweeps_are_refused(options: dict[str, int], message: str) -> None:
-    with pytest.raises(CogmapError, match=message):
-        explore_many(ONE, **options)
+def test_a_sweep_of_no_runs_is_refused() -> None:
+    with pytest.raises(CogmapError, match="runs is 0"):
+        explore_many(ONE, runs=0)

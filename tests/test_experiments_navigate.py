@@ -6,9 +6,11 @@ from typing import Any
 import cogmap.experiments.navigating as module
 import pytest
 from cogmap.agent import Agent, Settings
+from cogmap.baselines import FrontierAgent
 from cogmap.experiments import NavigateRun, explore, navigate, navigate_many, navigate_result, parse_goal
+from cogmap.experiments.executors import workers
 from cogmap.model import CogmapError
-from cogmap.worlds import MAZES, MazeEnv, hall, parse_maze
+from cogmap.worlds import GRID, MAZES, MazeEnv, hall, parse_maze
 
 SMALL, ALIAS = MAZES["3x3"], MAZES["t_maze_alias"]
 WORDS = parse_maze("a b 3", name="words")
@@ -83,9 +85,38 @@ class Fixed:
     ],
 )
 def test_passing_through_is_not_reaching(actions: list[str], steps: int | None) -> None:
+    actions_before = list(actions)
     session: Any = Fixed(actions)
-    assert module._reach(session, 1, 2.5, 4) == steps
+    reached, stood = module._reach(session, 1, 2.5, 4)
+    assert (reached, stood) == (steps, 2 if actions_before[0] == "stay" else 1)
     assert session.preferred == {1: 2.5}
+
+
+def test_any_agent_can_be_sent() -> None:
+    for seed in range(4):
+        search = navigate(MAZES["t_maze"], goal=7, known=False, agent="frontier", seed=seed)
+        assert search.reached
+        assert search.steps == search.steps_to_stand == search.frontier_steps
+        walk = navigate(MAZES["t_maze"], goal=7, known=False, agent="random", seed=seed)
+        assert walk.reached
+        assert walk.steps is not None
+        assert walk.shortest is not None
+        assert walk.steps >= walk.shortest
+    with pytest.raises(CogmapError, match="no agent is called 'genius'"):
+        navigate(SMALL, goal=0, agent="genius")
+
+
+def test_what_frontier_search_has_seen_it_finds_again_where_it_takes_itself_to_be() -> None:
+    agent, world = FrontierAgent(GRID, seed=0), MazeEnv(SMALL)
+    observation, _ = world.reset(options={"start": (0, 0)})
+    for _ in range(20):
+        observation, *_ = world.step(agent.step(observation))
+    agent.prefer({8: 1.0, 3: 0.5})
+    steps, shortest = 0, module.shortest(SMALL, world.position, 8)
+    while (action := agent.step(observation)) != module.STAY:
+        observation, *_ = world.step(action)
+        steps += 1
+    assert (observation["sight"], steps) == (8, shortest)
 
 
 def test_failures_are_counted_apart() -> None:
@@ -117,7 +148,9 @@ def test_one_room() -> None:
 
 @pytest.mark.parametrize("known", [True, False])
 def test_the_result_is_plain_json_and_the_same_on_two_processes(known: bool) -> None:
-    one, two = (navigate_many(SMALL, runs=2, seed=4, goal=8, known=known, jobs=jobs) for jobs in (1, 2))
+    one = navigate_many(SMALL, runs=2, seed=4, goal=8, known=known)
+    with workers(jobs=2) as executor:
+        two = navigate_many(SMALL, runs=2, seed=4, goal=8, known=known, executor=executor)
     assert one == two
     result = json.loads(
         json.dumps(navigate_result(SMALL, one, goal=8, known=known, settings=Settings()), allow_nan=False)

@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from cogmap.experiments.executors import workers
 from cogmap.experiments.studies.donut import DonutResult, detour, donut_lines, donut_study
 from cogmap.experiments.studies.donut_figures import FRAMES, donut_figures
 from cogmap.experiments.studies.donut_rows import CLOSED, CORNER, DOORS, GOAL_ROOM, MAZE, DonutRow, DonutStep
@@ -72,7 +73,8 @@ def test_as_json(result: DonutResult) -> None:
 
 def test_processes_change_nothing(result: DonutResult) -> None:
     told: list[None] = []
-    assert donut_study(agents=2, jobs=2, on_done=lambda: told.append(None)) == result
+    with workers(jobs=2) as executor:
+        assert donut_study(agents=2, executor=executor, on_done=lambda: told.append(None)) == result
     assert len(told) == 2
 
 

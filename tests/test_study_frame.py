@@ -12,15 +12,9 @@ import numpy as np
 import pytest
 from cogmap.agent import Settings
 from cogmap.experiments.session import Session, explored
-from cogmap.experiments.studies.frame import (
-    STUDIES,
-    Study,
-    check_folder,
-    save_study,
-    study_named,
-    study_report,
-)
+from cogmap.experiments.studies.frame import STUDIES, Study, study_named
 from cogmap.experiments.studies.imagined import imagined_paths, room_of
+from cogmap.experiments.studies.saving import check_folder, save_study, study_report
 from cogmap.model import CogmapError
 from cogmap.views.belief_plot import TRUE, plot_belief
 from cogmap.views.policy_plot import PALEST, plot_policies
@@ -39,7 +33,7 @@ class Found:
         self.given = given
 
     def to_dict(self) -> dict[str, Any]:
-        return {"rows": [], "summary": {}}
+        return {"rows": [{"seed": 7}], "summary": {"agents": 1}}
 
 
 @pytest.fixture
@@ -55,8 +49,11 @@ def stub() -> Iterator[Study]:
 
 
 def test_a_study_runs_with_its_own_settings_unless_told_otherwise(stub: Study) -> None:
-    own: Any = stub.run(agents=2, seed=5, jobs=1)
-    assert own.given == {"agents": 2, "seed": 5, "settings": None, "jobs": 1, "on_done": None}
+    own: Any = stub.run(agents=2, seed=5)
+    assert own.given == {"agents": 2, "seed": 5, "settings": None, "executor": None, "on_done": None}
+    assert stub.parts(2) == 2
+    kept: Any = replace(stub, keeps_cells=True).run(agents=1, ledger=None)
+    assert set(kept.given) - set(own.given) == {"ledger"}
     other: Any = stub.run(agents=2, look_ahead=4)
     assert other.given["settings"] == Settings(look_ahead=4, goal_weight=2.0)
     assert stub.settings() == Settings(look_ahead=9, goal_weight=2.0)
@@ -68,16 +65,21 @@ def test_what_a_study_leaves_in_its_folder(stub: Study, tmp_path: Path) -> None:
     result = stub.run(agents=1)
     report = study_report(stub, result, agents=1, seed=7, settings=stub.settings())
     written = save_study(tmp_path / "a" / "b", stub, result, report)
-    assert [path.name for path in written] == ["stub.json", "stub_one.png", "stub_one.svg"]
+    names = ["stub.json", "stub.csv", "stub_summary.csv", "stub_one.png", "stub_one.svg", "stub.md", "stub.html"]
+    assert [path.name for path in written] == names
     assert all(path.stat().st_size for path in written)
     saved = json.loads(written[0].read_text())
-    assert (saved["study"], saved["agents"], saved["seed"], saved["rows"]) == ("stub", 1, 7, [])
+    assert (saved["study"], saved["agents"], saved["seed"], saved["rows"]) == ("stub", 1, 7, [{"seed": 7}])
     assert saved["settings"]["look_ahead"] == 9
-    assert set(saved["versions"]) == {"cogmap", "python", "numpy"}
+    assert set(saved["versions"]) >= {"cogmap", "python", "numpy", "platform"}
+    assert set(saved["machine"]) >= {"processor", "cores", "system"}
+    assert saved["command"] == "cogmap study stub --runs 1 --seed 7"
+    other = study_report(stub, result, agents=1, seed=7, settings=stub.settings(4))
+    assert other["command"].endswith(" --seed 7 --look-ahead 4")
 
 
 def test_unknown_studies_are_refused() -> None:
-    with pytest.raises(CogmapError, match=r"no study is called 'x'; choose one of localisation, goals"):
+    with pytest.raises(CogmapError, match=r"no study is called 'x'; choose one of exploration, rooms.*, or all"):
         study_named("x")
     assert study_named("donut") is STUDIES["donut"]
 

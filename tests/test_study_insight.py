@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 from cogmap.baselines.habit import HabitAgent
+from cogmap.experiments.executors import workers
 from cogmap.experiments.studies.insight import MOST, insight_lines, insight_study
 from cogmap.experiments.studies.insight_figures import insight_figures
 from cogmap.experiments.studies.insight_rows import RATS, InsightResult, InsightRow, route_3_first
@@ -75,7 +76,8 @@ def test_bad_numbers_are_refused_in_one_line(wrong: dict[str, int]) -> None:
 def test_nine_of_ten_try_route_3_first_and_habit_does_not(seed: int, study: bool) -> None:
     if not study and seed:
         pytest.skip("one seed in the small form")
-    result = insight_study(agents=40 if study else 2, seed=seed, jobs=2)
+    with workers(jobs=2) as executor:
+        result = insight_study(agents=40 if study else 2, seed=seed, executor=executor)
     assert route_3_first(result.agents).share >= 0.9
     assert route_3_first(result.controls).share <= 0.1
     assert all(sum(run.reached_at is not None for run in one.training) >= 9 for one in result.controls)

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from cogmap.experiments.executors import workers
 from cogmap.experiments.studies.martinet import _apart, martinet_lines, martinet_study  # pyright: ignore[reportPrivateUsage]
 from cogmap.experiments.studies.martinet_figures import martinet_figures
 from cogmap.experiments.studies.martinet_rows import BLOCKED, FREE, PROBES, MartinetResult, MartinetRow, MartinetRun
@@ -78,7 +79,8 @@ def test_bad_numbers_are_refused_in_one_line(wrong: dict[str, int]) -> None:
 
 @pytest.mark.study
 def test_the_order_of_the_routes(study: bool) -> None:
-    result = martinet_study(agents=40 if study else 2, days=7 if study else 2, jobs=2)
+    with workers(jobs=2) as executor:
+        result = martinet_study(agents=40 if study else 2, days=7 if study else 2, executor=executor)
     for part in result.preferences():
         assert part.difference is not None
         assert part.p_value is not None

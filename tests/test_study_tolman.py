@@ -4,6 +4,7 @@ import json
 import math
 
 import pytest
+from cogmap.experiments.executors import workers
 from cogmap.experiments.studies.shares import total_variation, wilson
 from cogmap.experiments.studies.tolman import KNOB_VALUES, TolmanResult, tolman_lines, tolman_study
 from cogmap.experiments.studies.tolman_figures import tolman_figures
@@ -168,7 +169,10 @@ def test_it_is_not_told_and_nothing_is_reset(result: TolmanResult) -> None:
 
 def test_rows_do_not_depend_on_the_number_of_processes_nor_on_their_company(result: TolmanResult) -> None:
     calls: list[None] = []
-    again = tolman_study(agents=1, seed=1, runs=2, knob=(1.0,), jobs=2, on_done=lambda: calls.append(None))
+    with workers(jobs=2) as executor:
+        again = tolman_study(
+            agents=1, seed=1, runs=2, knob=(1.0,), executor=executor, on_done=lambda: calls.append(None)
+        )
     assert again.rows[0].to_dict() == result.rows[1].to_dict()
     assert len(calls) == 1
 
@@ -209,7 +213,8 @@ def test_the_claims_of_the_paper(seed: int, study: bool) -> None:
     if not study and seed:
         pytest.skip("one seed in the small form")
     agents = 10 if study else 2
-    result = tolman_study(agents=agents, seed=seed, knob=(), jobs=2)
+    with workers(jobs=2) as executor:
+        result = tolman_study(agents=agents, seed=seed, knob=(), executor=executor)
     free, a_closed, b_closed = result.counts
     runs = 12 * agents
     for counts, least in ((free, 103), (a_closed, 115), (b_closed, 84)):

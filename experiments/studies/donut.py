@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -58,7 +59,7 @@ def donut_study(
     agents: int,
     seed: int = 0,
     settings: Settings | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> DonutResult:
     """Let each agent explore, close a room on its way to the goal, move it to the corner without a word, and watch.
@@ -66,10 +67,10 @@ def donut_study(
     Agent i has the seed `seed` + i.
 
     Raises:
-        CogmapError: `agents` or `jobs` below 1, or a negative seed.
+        CogmapError: `agents` below 1, or a negative seed.
     """
     one = partial(_agent, settings or SETTINGS)
-    return DonutResult(tuple(map_seeds(one, runs=agents, seed=seed, jobs=jobs, on_done=on_done)))
+    return DonutResult(tuple(map_seeds(one, runs=agents, seed=seed, executor=executor, on_done=on_done)))
 
 
 def donut_lines(result: DonutResult) -> list[str]:

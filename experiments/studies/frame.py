@@ -1,29 +1,31 @@
-"""What every study has in common: its name, how it is run, and what it leaves in a folder.
+"""What every study has in common: its name, and how it is run.
 
 The study `x` is the module `x` beside this one with `x_study` and `x_lines`, and the module `x_figures` with
-`x_figures`; the name `SETTINGS` in `x`, where there is one, holds the settings that the protocol asks for.
+`x_figures`. In `x` there may also be `SETTINGS`, the settings that the protocol asks for; `x_tables`, its tables, where
+those are not to be read off its JSON; and `x_tasks`, how often it reports to be done with a part.
 """
 
 from __future__ import annotations
 
-import os
-import platform
-import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from importlib import import_module
-from importlib.metadata import version
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ...agent import Settings
 from ...model.errors import CogmapError
-from ..output import check_outputs, write_json, write_picture
+from .failures import failures
+from .json_tables import json_tables
+from .report import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SUFFIXES = (".png", ".svg")
+    from ..ledger import Ledger
+
+EVERYTHING = "all"
+"""Stands for every study, one after the other."""
 
 
 class Result(Protocol):
@@ -41,10 +43,12 @@ class Study:
     Attributes:
         name: of the study, its module and its functions.
         agents: how many take part unless told otherwise.
+        keeps_cells: whether its runs are kept in a ledger as they finish, and not run again.
     """
 
     name: str
     agents: int
+    keeps_cells: bool = False
 
     def run(
         self,
@@ -52,17 +56,27 @@ class Study:
         agents: int,
         seed: int = 0,
         look_ahead: int | None = None,
-        jobs: int = 1,
+        executor: Executor | None = None,
+        ledger: Ledger | None = None,
         on_done: Callable[[], None] | None = None,
     ) -> Result:
         """Let `agents` agents take part, with the settings of the protocol but for `look_ahead`, if that is given.
+
+        Args:
+            agents: how many; agent i has the seed `seed` + i.
+            seed: of the first.
+            look_ahead: steps that a policy looks ahead.
+            executor: where the work is done; in this process if None.
+            ledger: of a study that keeps one; see `grid.ledger_in`.
+            on_done: called `parts(agents)` times while the work goes on.
 
         Raises:
             CogmapError: a number is out of range, or a process was killed.
         """
         settings = None if look_ahead is None else self.settings(look_ahead)
         study = getattr(self._module(), f"{self.name}_study")
-        return study(agents=agents, seed=seed, settings=settings, jobs=jobs, on_done=on_done)
+        kept: dict[str, Any] = {"ledger": ledger} if self.keeps_cells else {}
+        return study(agents=agents, seed=seed, settings=settings, executor=executor, on_done=on_done, **kept)
 
     def settings(self, look_ahead: int | None = None) -> Settings:
         """The settings of the protocol, with another look-ahead if one is given.
@@ -73,6 +87,10 @@ class Study:
         own: Settings = getattr(self._module(), "SETTINGS", None) or Settings()
         return own if look_ahead is None else replace(own, look_ahead=look_ahead)
 
+    def parts(self, agents: int) -> int:
+        """How often `run` calls `on_done`."""
+        return getattr(self._module(), f"{self.name}_tasks", _itself)(agents)
+
     def lines(self, result: Result) -> list[str]:
         """What the terminal shows of the result."""
         return getattr(self._module(), f"{self.name}_lines")(result)
@@ -82,6 +100,22 @@ class Study:
         module = import_module(f".{self.name}_figures", __package__)
         return getattr(module, f"{self.name}_figures")(result)
 
+    @property
+    def has_tables(self) -> bool:
+        """Whether it has tables that say all that its lines do."""
+        return hasattr(self._module(), f"{self.name}_tables")
+
+    def tables(self, result: Result) -> Sequence[Table]:
+        """The tables, the main rows first."""
+        if not self.has_tables:
+            return json_tables(self.name, result.to_dict())
+        return getattr(self._module(), f"{self.name}_tables")(result)
+
+    def failed(self, result: Result) -> tuple[str, ...]:
+        """What did not get there, one line each."""
+        own = getattr(result, "failed", None)
+        return failures(self.name, result.to_dict()) if own is None else own()
+
     def _module(self) -> Any:
         return import_module(f".{self.name}", __package__)
 
@@ -89,6 +123,10 @@ class Study:
 STUDIES = {
     study.name: study
     for study in (
+        Study("exploration", 20, keeps_cells=True),
+        Study("rooms", 20, keeps_cells=True),
+        Study("growth", 20, keeps_cells=True),
+        Study("cost", 5),
         Study("localisation", 20),
         Study("goals", 20),
         Study("donut", 20),
@@ -106,58 +144,9 @@ def study_named(name: str) -> Study:
         CogmapError: there is none.
     """
     if name not in STUDIES:
-        raise CogmapError(f"no study is called {name!r}; choose one of {', '.join(STUDIES)}")
+        raise CogmapError(f"no study is called {name!r}; choose one of {', '.join(STUDIES)}, or {EVERYTHING}")
     return STUDIES[name]
 
 
-def check_folder(folder: Path, study: str) -> None:
-    """Refuse, before anything is computed, a folder in which `save_study` could not write.
-
-    Raises:
-        CogmapError: it is a file, or not writable, or cannot be made.
-    """
-    try:
-        if folder.is_dir():
-            check_outputs([folder / f"{study}.json"])
-            return
-        target = above = Path(os.path.realpath(folder))
-        while not (above.exists() or above == above.parent):
-            above = above.parent
-        if not above.is_dir():
-            raise CogmapError(f"cannot make folder {folder}: {above} is a file; choose another folder")
-        with tempfile.TemporaryDirectory(dir=above, prefix=".cogmap-") as there:
-            (Path(there) / target.relative_to(above)).mkdir(parents=True)  # a name may be too long
-    except OSError as error:
-        raise CogmapError(f"cannot make folder {folder}: {error.strerror or error}; choose another folder") from error
-
-
-def study_report(study: Study, result: Result, *, agents: int, seed: int, settings: Settings) -> dict[str, Any]:
-    """What the study found, and all that it takes to run it again, as plain JSON values."""
-    versions = {"cogmap": version("cogmap"), "python": platform.python_version(), "numpy": version("numpy")}
-    head = {
-        "study": study.name,
-        "agents": agents,
-        "seed": seed,
-        "settings": settings.to_dict(),
-        "versions": versions,
-    }
-    return {**head, **result.to_dict()}
-
-
-def save_study(folder: Path, study: Study, result: Result, report: dict[str, Any]) -> list[Path]:
-    """Write `report` as JSON, and every figure as PNG and SVG; answers with the files, the JSON first.
-
-    Raises:
-        CogmapError: a file cannot be written; those before it are whole.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CogmapError(f"cannot make folder {folder}: {error.strerror or error}; choose another folder") from error
-    written = [folder / f"{study.name}.json"]
-    write_json(written[0], report)
-    for stem, figure in study.figures(result).items():
-        for suffix in SUFFIXES:
-            written.append(folder / f"{stem}{suffix}")
-            write_picture(written[-1], figure)
-    return written
+def _itself(agents: int) -> int:
+    return agents

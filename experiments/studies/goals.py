@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -118,7 +119,7 @@ def goals_study(
     agents: int,
     seed: int = 0,
     settings: Settings | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> GoalsResult:
     """Send agents to goals in the eight mazes, each once with a map and once without.
@@ -127,18 +128,18 @@ def goals_study(
         agents: runs in each maze, with the seeds `seed`, `seed + 1`, ...
         seed: of the first run; a run's seed draws start, goal and agent.
         settings: of the agents.
-        jobs: processes at most; the result does not depend on it.
+        executor: where the agents run, in this process if None; the result does not depend on it.
         on_done: called after each of the `goals_tasks(agents)` runs.
 
     Raises:
-        CogmapError: `agents` or `jobs` is below 1, or `seed` below 0.
+        CogmapError: `agents` is below 1, or `seed` below 0.
     """
     if agents < 1:
         raise CogmapError(f"goals: agents is {agents}; use 1 or more")
     if seed < 0:
         raise CogmapError(f"goals: seed is {seed}; use 0 or more")
     tasks = [(world, known, seed + i) for world in MAZES for known in (True, False) for i in range(agents)]
-    runs = map_tasks(partial(_run, settings), tasks, jobs=jobs, on_done=on_done)
+    runs = map_tasks(partial(_run, settings), tasks, executor=executor, on_done=on_done)
     return GoalsResult(agents, seed, WEIGHT, settings or Settings(), tuple(runs))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
 
@@ -39,7 +40,7 @@ def insight_study(
     agents: int,
     seed: int = 0,
     settings: Settings | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
     runs: int = RUNS,
 ) -> InsightResult:
@@ -51,16 +52,16 @@ def insight_study(
         agents: how many; agent i has the seed `seed` + i.
         seed: of the first.
         settings: of the agents; `SETTINGS` unless given.
-        jobs: processes at most; the result does not depend on it.
+        executor: where the agents run, in this process if None; the result does not depend on it.
         on_done: called after each agent.
         runs: without obstacle.
 
     Raises:
-        CogmapError: `agents`, `runs` or `jobs` below 1, or a negative seed.
+        CogmapError: `agents` or `runs` below 1, or a negative seed.
     """
     check_counts("insight", agents=agents, runs=runs)
     one = partial(_pair, settings or SETTINGS, runs)
-    pairs = map_tasks(one, range(seed, seed + agents), jobs=jobs, on_done=on_done)
+    pairs = map_tasks(one, range(seed, seed + agents), executor=executor, on_done=on_done)
     return InsightResult(tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs))
 
 

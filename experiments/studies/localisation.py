@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -71,7 +72,7 @@ def localisation_study(
     agents: int,
     seed: int = 0,
     settings: Settings | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> LocalisationResult:
     """Let each agent explore the maze, move it to the foot of the T, and watch what it believes on its way to the goal.
@@ -79,10 +80,10 @@ def localisation_study(
     Every condition starts from a copy of the same agent. Agent i has the seed `seed` + i.
 
     Raises:
-        CogmapError: `agents` or `jobs` below 1, or a negative seed.
+        CogmapError: `agents` below 1, or a negative seed.
     """
     one = partial(_agent, settings or SETTINGS)
-    return LocalisationResult(tuple(map_seeds(one, runs=agents, seed=seed, jobs=jobs, on_done=on_done)))
+    return LocalisationResult(tuple(map_seeds(one, runs=agents, seed=seed, executor=executor, on_done=on_done)))
 
 
 def localisation_lines(result: LocalisationResult) -> list[str]:

@@ -7,6 +7,7 @@ network model, PLoS Comput. Biol. 7(5): e1002045, 2011, section "Tolman & Honzik
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import replace
 from functools import partial
 
@@ -46,7 +47,7 @@ def martinet_study(
     agents: int,
     seed: int = 0,
     settings: Settings | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
     days: int = DAYS,
 ) -> MartinetResult:
@@ -60,16 +61,16 @@ def martinet_study(
         agents: how many; agent i has the seed `seed` + i.
         seed: of the first.
         settings: of the agents; `SETTINGS` unless given.
-        jobs: processes at most; the result does not depend on it.
+        executor: where the agents run, in this process if None; the result does not depend on it.
         on_done: called after each agent.
         days: of training.
 
     Raises:
-        CogmapError: `agents`, `days` or `jobs` below 1, or a negative seed.
+        CogmapError: `agents` or `days` below 1, or a negative seed.
     """
     check_counts("martinet", agents=agents, days=days)
     one = partial(_agent, settings or SETTINGS, days)
-    rows = map_tasks(one, range(seed, seed + agents), jobs=jobs, on_done=on_done)
+    rows = map_tasks(one, range(seed, seed + agents), executor=executor, on_done=on_done)
     return MartinetResult(tuple(rows), days)
 
 

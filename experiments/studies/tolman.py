@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -80,7 +81,7 @@ def tolman_study(
     agents: int,
     seed: int = 0,
     settings: Settings | None = None,
-    jobs: int = 1,
+    executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
     runs: int = RUNS,
     knob: Sequence[float] = KNOB_VALUES,
@@ -91,13 +92,13 @@ def tolman_study(
         agents: how many; agent i has the seed `seed` + i.
         seed: of the first.
         settings: of the agents; `SETTINGS` unless given.
-        jobs: processes at most; the result does not depend on it.
+        executor: where the agents run, in this process if None; the result does not depend on it.
         on_done: called `agents` times while the work goes on.
         runs: in a block.
         knob: values of `KNOB` that a few agents are tried with as well.
 
     Raises:
-        CogmapError: `agents`, `runs` or `jobs` below 1, a negative seed, or a bad value of the knob.
+        CogmapError: `agents` or `runs` below 1, a negative seed, or a bad value of the knob.
     """
     settings = settings or SETTINGS
     check_counts("tolman", agents=agents, runs=runs)
@@ -107,7 +108,7 @@ def tolman_study(
     tasks = [(settings, number) for number in range(seed, seed + agents)]
     tasks += [(other, number) for other in others for number in few]
     every = _in_step(on_done, len(tasks), agents)
-    rows = map_tasks(partial(_agent, runs), tasks, jobs=jobs, on_done=every)
+    rows = map_tasks(partial(_agent, runs), tasks, executor=executor, on_done=every)
     tried = [_knob_setting(own, rows[:agents])]
     for place, other in enumerate(others):
         first = agents + place * len(few)

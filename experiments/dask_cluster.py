@@ -1,0 +1,162 @@
+"""The workers of a Dask cluster."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import warnings
+from collections.abc import Callable, Generator
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import contextmanager, suppress
+from functools import partial
+from importlib.metadata import version
+from typing import Any, ParamSpec, TypeVar
+
+from ..model.errors import CogmapError
+
+Parameters = ParamSpec("Parameters")
+Result = TypeVar("Result")
+
+_PACKAGE = "cogmap"
+PATIENCE = 5.0
+"""Seconds in which a scheduler must answer, and again in which a worker must be there."""
+
+
+@contextmanager
+def cluster(address: str) -> Generator[Executor]:
+    """The workers of the scheduler at that address, `host:port` or `tcp://host:port`.
+
+    Raises:
+        CogmapError: the package `distributed` is missing, no scheduler answers there, or its workers lack this cogmap.
+    """
+    client = _connected(address)
+    with _quiet():
+        try:
+            yield _ClusterExecutor(client)
+        finally:
+            _close(client)
+
+
+class _ClusterExecutor(Executor):
+    """Tasks of a client as futures of `concurrent.futures`.
+
+    The executor that `distributed` has asks the scheduler at each cancelled future and waits for its answer, which is
+    slow, and fails at every single one where the scheduler has gone.
+    """
+
+    def __init__(self, client: Any) -> None:
+        self._client = client
+
+    def submit(
+        self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
+    ) -> Future[Result]:
+        there = self._client.submit(fn, *args, pure=False, **kwargs)
+        here: Future[Result] = Future()
+        there.add_done_callback(partial(_hand_over, here))
+        here.add_done_callback(partial(self._cancel, there))
+        return here
+
+    def _cancel(self, there: Any, here: Future[Any]) -> None:
+        async def cancel() -> None:
+            with suppress(Exception):  # the scheduler has gone
+                await self._client.cancel([there], asynchronous=True)
+
+        if here.cancelled():
+            self._client.loop.add_callback(cancel)
+
+
+def _hand_over(here: Future[Any], there: Any) -> None:
+    if not here.set_running_or_notify_cancel():
+        return
+    try:
+        here.set_result(there.result())
+    except BaseException as error:
+        here.set_exception(error)
+
+
+def _close(client: Any) -> None:
+    try:
+        client.close(timeout=PATIENCE)  # the scheduler drops what has not finished
+    except Exception:  # it has gone; what went wrong is known by then
+        client.status = "closed"  # or the client tries again when it is collected, and complains
+
+
+def _connected(address: str) -> Any:
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise CogmapError(
+            f"dask is {address}, but the package distributed is missing; run: pip install 'cogmap[dask]'"
+        ) from error
+    with _quiet():
+        try:
+            # a client by itself would wait for ever where something else listens
+            with ThreadPoolExecutor(1) as thread:  # in a notebook this one has a loop already
+                thread.submit(asyncio.run, _probe(address)).result()
+            client = Client(address, timeout=PATIENCE, set_as_default=False)
+        except (OSError, MemoryError, ValueError, TypeError, EOFError) as error:
+            raise CogmapError(
+                f"no Dask scheduler answers at {address!r} ({_first_line(error)}); give the address that "
+                "`dask scheduler` prints, like tcp://127.0.0.1:8786"
+            ) from error
+        try:
+            _check_workers(client, address)
+        except BaseException:
+            _close(client)
+            raise
+    return client
+
+
+async def _probe(address: str) -> None:
+    from distributed.comm.core import connect
+
+    async with asyncio.timeout(PATIENCE):
+        comm = await connect(address if "://" in address else f"tcp://{address}", timeout=PATIENCE - 1)
+    comm.abort()
+
+
+def _check_workers(client: Any, address: str) -> None:
+    """Refuse a cluster whose results could be others than those of this process."""
+    try:
+        client.wait_for_workers(1, timeout=PATIENCE)
+    except TimeoutError as error:
+        raise CogmapError(
+            f"the Dask scheduler at {address} has no workers; start one: dask worker {address}"
+        ) from error
+    own = _own_version()
+    try:
+        found: dict[str, str] = client.run(version, _PACKAGE)
+    except ImportError as error:
+        raise CogmapError(f"a Dask worker of {address} has no cogmap; install cogmap {own} there") from error
+    for worker, other in found.items():
+        if other != own:
+            raise CogmapError(f"Dask worker {worker} has cogmap {other}, this is {own}; install the same version there")
+
+
+def _own_version() -> str:
+    return version(_PACKAGE)
+
+
+@contextmanager
+def _quiet() -> Generator[None]:
+    """What goes wrong is said in one line by us, not in many by `distributed`."""
+    known = list(logging.root.manager.loggerDict.items())
+    loggers = [
+        logger
+        for name, logger in known
+        if name.split(".")[0] in ("distributed", "tornado", "asyncio") and isinstance(logger, logging.Logger)
+    ]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
+    try:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", module="distributed")
+            yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
+
+
+def _first_line(error: BaseException) -> str:
+    return (str(error) or "something else listens there").splitlines()[0]

@@ -1,0 +1,123 @@
+from __future__ import annotations
+
+import socket
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from cogmap.experiments import dask_cluster
+from cogmap.experiments.cells import Cell, Row, run_cells
+from cogmap.experiments.executors import workers
+from cogmap.experiments.ledger import Ledger
+from cogmap.experiments.pool import WorkerLostError, completed, map_tasks
+from cogmap.model import CogmapError
+from cogmap.worlds import MAZES
+from command_line import cogmap
+
+CELLS = [Cell(MAZES["3x3"], agent, seed) for agent in ("cogmap", "frontier") for seed in range(2)]
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    """A cluster of two workers, ended after the last test of this module."""
+    distributed: Any = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as cluster:
+        yield cluster.scheduler_address
+
+
+def nap(number: int) -> int:
+    time.sleep(0.2)
+    return number
+
+
+def refusal(address: str) -> str:
+    begin = time.monotonic()
+    with pytest.raises(CogmapError) as error, workers(dask=address):
+        pytest.fail("it began")
+    assert time.monotonic() - begin < 10
+    return str(error.value)
+
+
+def test_the_rows_are_those_of_this_process(address: str, tmp_path: Path) -> None:
+    with workers(dask=address) as executor, Ledger(tmp_path / "cells.jsonl") as ledger:
+        rows = list(run_cells(CELLS, executor=executor, ledger=ledger))
+        assert [Row.from_dict(row) for row in ledger.rows] == rows
+    assert sorted(rows, key=lambda row: row.key) == sorted(run_cells(CELLS), key=lambda row: row.key)
+
+
+@pytest.mark.usefixtures("empty_folder")
+def test_a_command_says_the_same(address: str) -> None:
+    command = ("kidnap", "3x3", "--runs", 2)
+    assert cogmap(*command, "--dask", address.removeprefix("tcp://")).stdout == cogmap(*command).stdout
+
+
+def test_what_has_not_begun_is_cancelled(address: str) -> None:
+    begin = time.monotonic()
+    with workers(dask=address) as executor:
+        results = completed(nap, range(400), executor=executor)
+        next(results)
+        results.close()  # type: ignore[attr-defined]
+    assert time.monotonic() - begin < 20  # of 40 on two workers
+
+
+def test_an_error_of_a_task_arrives(address: str) -> None:
+    with workers(dask=address) as executor, pytest.raises(ZeroDivisionError):
+        map_tasks((1).__truediv__, [1, 0], executor=executor)
+
+
+def test_workers_of_another_version_are_refused(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dask_cluster, "_own_version", lambda: "99.0")
+    assert "has cogmap " in (found := refusal(address))
+    assert found.endswith("this is 99.0; install the same version there")
+
+
+def test_workers_without_cogmap_are_refused(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(dask_cluster, "_own_version", lambda: "99.0")
+    monkeypatch.setattr(dask_cluster, "_PACKAGE", "no-such-package")
+    assert refusal(address).endswith("has no cogmap; install cogmap 99.0 there")
+
+
+def test_a_cluster_that_goes_is_one_line(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> None:
+    distributed: Any = pytest.importorskip("distributed")
+    monkeypatch.setattr(dask_cluster, "PATIENCE", 1.5)
+    cluster = distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0")
+    with workers(dask=cluster.scheduler_address) as executor:
+        results = completed(nap, range(8), executor=executor)
+        next(results)
+        cluster.close()
+        with pytest.raises(WorkerLostError, match="lost its scheduler"):
+            list(results)
+    assert "reconnect" not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("address", ["", "here", "nonsense::1", "http://127.0.0.1:80", "127.0.0.1:1"])
+def test_no_scheduler_is_one_line(
+    address: str, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.setattr(dask_cluster, "PATIENCE", 1.5)
+    assert f"no Dask scheduler answers at '{address}' (" in (found := refusal(address))
+    assert "\n" not in found
+    assert capfd.readouterr().err == ""
+
+
+def test_something_else_that_listens_is_no_scheduler(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.setattr(dask_cluster, "PATIENCE", 1.5)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        assert "something else listens there" in refusal(f"127.0.0.1:{silent.getsockname()[1]}")
+
+
+def test_a_cluster_without_workers_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    distributed: Any = pytest.importorskip("distributed")
+    monkeypatch.setattr(dask_cluster, "PATIENCE", 1.5)
+    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0") as cluster:
+        assert "has no workers; start one: dask worker" in refusal(cluster.scheduler_address)
+
+
+def test_without_the_package_the_way_to_install_it_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert refusal("here:8786").endswith("run: pip install 'cogmap[dask]'")
