@@ -1,13 +1,17 @@
 """Runs every check of this repository, stops at none, and exits with 1 if any failed.
 
-Format, lint, types, import rules, tests with coverage, and the Python examples of README.md and docs/.
-Needs the test extra: pip install -e '.[test]'. Arguments go to pytest: check.py --study
+Format, lint, types, import rules, tests with coverage, the documentation site, and the Python examples of README.md
+and docs/. Needs the test extra: pip install -e '.[test]'. Arguments go to pytest: check.py --study
+
+Where the variable CI is set, the programs that some tests need, a browser and Graphviz, are installed first; elsewhere
+those tests are skipped if they are missing.
 """
 
 from __future__ import annotations
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,6 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent
 LEAST_COVERAGE = 95  # per cent of the lines of the folders in [tool.coverage.run]
 JOBS = 2
+PROGRAMS = {"chromium": "chromium", "dot": "graphviz"}  # and the Debian packages that have them
 
 _LINT_IMPORTS = "from importlinter.cli import lint_imports_command; lint_imports_command()"
 _COVERAGE = ("--cov", f"--cov-fail-under={LEAST_COVERAGE}", "--cov-report=term:skip-covered")
@@ -37,6 +42,15 @@ def python_examples() -> dict[str, str]:
     return {str(page.relative_to(ROOT)): "\n".join(found) for page, found in blocks.items() if found}
 
 
+def install_programs() -> None:
+    """Install with apt-get what is missing of `PROGRAMS`; the tests say what they lack where that fails."""
+    missing = [package for program, package in PROGRAMS.items() if shutil.which(program) is None]
+    if missing and shutil.which("apt-get"):
+        quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+        for words in (("update",), ("install", "--yes", "--no-install-recommends", *missing)):
+            subprocess.run(["apt-get", "--quiet", *words], env=quiet, stdin=subprocess.DEVNULL)
+
+
 def run(name: str, arguments: Sequence[str], *, folder: Path = ROOT) -> bool:
     """Run Python with `arguments` in `folder`, say how it went, and whether it went well."""
     print(f"\n== {name}", flush=True)
@@ -50,11 +64,15 @@ def run(name: str, arguments: Sequence[str], *, folder: Path = ROOT) -> bool:
 def main(for_pytest: Sequence[str] = ()) -> int:
     """Every check, then what failed."""
     os.environ["PYRIGHT_PYTHON_IGNORE_WARNINGS"] = "1"  # that there is a newer one: ours is pinned
+    os.environ["NO_MKDOCS_2_WARNING"] = "1"
+    if os.environ.get("CI"):
+        install_programs()
     results = {
         name: run(name, (*arguments, *for_pytest) if name == "tests" else arguments)
         for name, arguments in CHECKS.items()
     }
     with tempfile.TemporaryDirectory() as folder:
+        results["docs"] = run("docs", ("-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", f"{folder}/site"))
         for page, code in python_examples().items():
             name = f"example of {page}"
             results[name] = run(name, ("-c", code), folder=Path(folder))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .cli_explore import Jobs, Seed
+from .cli_explore import Dask, Jobs, Seed
 
 if TYPE_CHECKING:
     from .ledger import Ledger
@@ -39,11 +39,6 @@ Out = Annotated[
 LookAhead = Annotated[
     int | None, typer.Option(min=1, help="L: steps that a policy looks ahead; the study's own unless given.")
 ]
-Dask = Annotated[
-    str | None,
-    typer.Option(metavar="ADDRESS", help="Work on the cluster of a Dask scheduler, such as tcp://host:8786."),
-]
-
 SOME_FAILED = 1
 
 

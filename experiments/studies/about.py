@@ -44,7 +44,13 @@ ABOUT = {
             "CSCG that navigates by Viterbi explores as its setting exploring says. With random, as in the authors' "
             "code, where nothing is preferred while it explores, it makes the same moves from the same seed as the "
             "random one, and both columns are alike; the paper's are, too.",
-            "CSCG learns only when it is trained, every few moves: its steps come in multiples of that.",
+            "Where all rooms differ, sights alone tell a CSCG as much as sights and positions, and the walks are the "
+            "same.",
+            "CSCG senses no doors: it must try every move in every room, into walls as well, and random walks that do "
+            "so take about as long as the paper reports if they never stay. Its random moves leave staying out, then, "
+            "and what staying does is not asked of it; of cogmap it is.",
+            "CSCG learns only when it is trained, every few moves: its steps come in multiples of that. A later "
+            "training may spoil what an earlier one had right; what counts is the first that has everything right.",
         ),
     ),
     "rooms": About(
@@ -57,8 +63,8 @@ ABOUT = {
             "The paper gives a figure without numbers; the only published numbers beside ours are of the authors'"
             " code.",
             "For cogmap a room counts once its map has it as visited.",
-            "The random walk draws among the open doors. CSCG senses no doors: its random moves are "
-            "drawn among all actions, those into walls and staying among them.",
+            "The random walk draws among the open doors. CSCG senses no doors: its random moves are drawn among "
+            "all four, those into walls among them.",
         ),
     ),
     "growth": About(

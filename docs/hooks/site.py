@@ -1,0 +1,70 @@
+"""The MkDocs hook of this site: what each event of the build asks of the modules beside this one."""
+
+from __future__ import annotations
+
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import reference
+import repository
+import running
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.plugins import event_priority
+from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
+
+_folder = tempfile.TemporaryDirectory(prefix="cogmap-docs-")
+
+
+@event_priority(100)  # before mkdocstrings reads its options
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Tell mkdocstrings where the packages are, and add the made pages to the navigation."""
+    packages = reference.linked_packages(Path(_folder.name))
+    config.plugins["mkdocstrings"].config["handlers"]["python"]["paths"] = [packages]
+    made = {
+        "Examples": repository.example_uris(),
+        "Decisions": repository.decision_uris(),
+        "Reference": reference.uris(),
+        "Project": repository.project_uris(),
+    }
+    for section in config.nav or []:
+        for name, pages in section.items():
+            pages.extend(made.get(name, []))
+    return config
+
+
+def on_files(files: Files, *, config: MkDocsConfig) -> Files:
+    """Add the pages made from the repository and from the docstrings."""
+    texts = [file.content_string for file in files.documentation_pages()]
+    for uri, text in [*repository.pages().items(), *reference.pages(texts).items()]:
+        files.append(File.generated(config, uri, content=text))
+    with ThreadPoolExecutor(2) as pool:
+        outcomes = list(pool.map(running.run_script, repository.EXAMPLES))
+    for path, outcome in zip(repository.EXAMPLES, outcomes, strict=True):
+        uri = repository.PAGES[f"examples/{path.name}"]
+        text = repository.example_page(path, outcome.text, running.shown_pictures(outcome.pictures, "", uri))
+        files.append(File.generated(config, uri, content=text))
+        _add_pictures(outcome.pictures, uri, files, config)
+    return files
+
+
+def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Mend the links, run the code, link the names."""
+    uri = page.file.src_uri
+    if uri.startswith("reference/"):
+        return markdown
+    markdown = repository.with_site_links(markdown, uri)
+    if not uri.startswith(("examples/", "decisions/")):
+        markdown, pictures = running.with_outcomes(markdown, uri)
+        _add_pictures(pictures, uri, files, config)
+    return reference.with_links(markdown)
+
+
+def _add_pictures(pictures: dict[str, bytes], uri: str, files: Files, config: Any) -> None:
+    for name, content in pictures.items():
+        place = running.picture_place(name, uri)
+        if (known := files.get_file_from_path(place)) is not None:
+            files.remove(known)
+        files.append(File.generated(config, place, content=content))

@@ -1,0 +1,75 @@
+from __future__ import annotations
+
+import ast
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parent.parent / "examples"
+SCRIPTS = sorted(FOLDER.glob("*.py"))
+SAYS = {
+    "inspect_factor_graph": ("M(moved20)", "{0: 0.5, 1: 0.5}", "less log evidence"),
+    "kidnap_and_recover": ("P(moved) 1.000", "not certain", "still 16 places"),
+    "own_factor_graph": ("log evidence", "P(today | the day before)", "fever"),
+    "own_maze": ("half way", "15 visited", "15 steps; the shortest walk through all rooms has 15"),
+    "quickstart": ("16 visited", "sight_information", "free energy"),
+    "watch_it_grow": ("seen up of place 0", "'place': 9"),
+}
+DRAWS = {"own_maze": {"house.png"}, "quickstart": {"map.npz"}, "watch_it_grow": {"growth.gif", "growth.png"}}
+
+
+def run(script: Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "MPLBACKEND": "Agg"}
+    return subprocess.run(
+        [sys.executable, "-W", "error::DeprecationWarning:__main__", str(script)],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_it_runs_says_what_it_should_and_draws(script: Path, tmp_path: Path) -> None:
+    done = run(script, tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert not done.stderr
+    for words in SAYS[script.stem]:
+        assert words in done.stdout
+    assert {path.name for path in tmp_path.iterdir()} == DRAWS.get(script.stem, set())
+    assert all(path.stat().st_size > 1000 for path in tmp_path.iterdir())
+
+
+def test_what_is_learned_of_the_patient_explains_the_reports_better(tmp_path: Path) -> None:
+    printed = run(FOLDER / "own_factor_graph.py", tmp_path).stdout
+    evidence = [float(value) for value in re.findall(r"log evidence (-[\d.]+)", printed)]
+    assert len(evidence) == 6
+    assert evidence == sorted(evidence)
+    ill = [line.split()[0] for line in printed.splitlines() if line.endswith(" ill")]
+    assert ill == ["4", "5", "6", "7", "8"]
+
+
+def test_engines_agree_about_the_agent(tmp_path: Path) -> None:
+    printed = run(FOLDER / "inspect_factor_graph.py", tmp_path).stdout
+    answers = re.findall(r"^  (?:numpy|gtsam)  (.*)$", printed, re.M)
+    assert len(answers) == 2
+    assert len(set(answers)) == 1
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
+def test_it_is_short_and_says_what_one_learns(script: Path) -> None:
+    code = script.read_text("utf-8")
+    docstring = ast.get_docstring(ast.parse(code)) or ""
+    assert len(docstring.splitlines()) >= 3
+    assert len(code.splitlines()) <= 60
+
+
+def test_every_script_is_in_the_list() -> None:
+    listed = re.findall(r"\((\w+\.py)\)", (FOLDER / "README.md").read_text("utf-8"))
+    assert sorted(listed) == [script.name for script in SCRIPTS]
+    assert set(SAYS) == {script.stem for script in SCRIPTS}
