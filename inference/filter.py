@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.cognitive_map import CognitiveMap
+from ..model.slices import found_shut
 from .message import Belief, Evidence, FilterOptions, Message
 
 Floats = NDArray[np.float64]
@@ -22,25 +23,29 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True)
 class _Candidates:
-    """Weighted pairs `[m]` before the evidence of this step; `source` indexes the message they come from."""
+    """Weighted pairs `[m]` before the evidence of this step.
+
+    `source` indexes the message they come from; `told` is what the evidence has to be multiplied by (see `found_shut`).
+    """
 
     places: Ints
     positions: Ints
     weight: Floats
     source: Ints
+    told: Floats
 
 
 def begin(map_: CognitiveMap, place: int, evidence: Evidence) -> Belief:
     """The belief of an agent that knows to be in `place`, after its first evidence."""
     start = np.array([place])
-    prior = _Candidates(start, map_.position_index[start], np.ones(1), np.zeros(1, dtype=np.int64))
+    prior = _Candidates(start, map_.position_index[start], np.ones(1), np.zeros(1, dtype=np.int64), np.ones(1))
     return _update(map_, None, prior, None, evidence, FilterOptions(support=0.0))
 
 
 def advance(map_: CognitiveMap, message: Message, evidence: Evidence, options: FilterOptions) -> Belief:
     """The belief after one more action and its evidence."""
     walked = _walk(map_, message, evidence, options)
-    share = walked.weight * likelihood(map_, walked.places, evidence.sight, evidence.open)
+    share = walked.weight * walked.told * likelihood(map_, walked.places, evidence.sight, evidence.open)
     unmoved = float(share.sum())
     if options.displacement <= options.support * unmoved:  # even a perfect match elsewhere would be dropped
         return _update(map_, message, walked, None, evidence, options)
@@ -64,14 +69,15 @@ def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: Fil
     n, slots = keys.shape
     places = np.concatenate([keys.ravel(), keys.ravel()])
     positions = np.repeat(np.concatenate([ahead, message.positions]), slots)
+    told = found_shut(map_, message.places, keys, action, evidence.open, slip=1.0 - moves)
     weight = (message.mass[:, None] * p).ravel()
     weight = np.concatenate([weight * moves, weight * (1.0 - moves)]) * (1.0 - options.displacement)
-    source = np.tile(np.repeat(np.arange(n), slots), 2)
+    source, told = np.tile(np.repeat(np.arange(n), slots), 2), np.tile(told.ravel(), 2)
     real = (places >= 0) & (positions >= 0) & (weight > 0.0)
-    places, positions, weight, source = places[real], positions[real], weight[real], source[real]
+    places, positions, weight, source, told = (x[real] for x in (places, positions, weight, source, told))
     weight = weight * map_.A_p.probability(positions, places)
     fits = weight > 0.0
-    return _Candidates(places[fits], positions[fits], weight[fits], source[fits])
+    return _Candidates(places[fits], positions[fits], weight[fits], source[fits], told[fits])
 
 
 def _displaced(map_: CognitiveMap, options: FilterOptions) -> _Candidates:
@@ -81,7 +87,8 @@ def _displaced(map_: CognitiveMap, options: FilterOptions) -> _Candidates:
     places = np.repeat(visited, keys.shape[1])
     weight = (p * (options.displacement / max(len(visited), 1))).ravel()
     real = weight > 0.0
-    return _Candidates(places[real], keys.ravel()[real], weight[real], np.full(int(real.sum()), -1))
+    count = int(real.sum())
+    return _Candidates(places[real], keys.ravel()[real], weight[real], np.full(count, -1), np.ones(count))
 
 
 def _update(
@@ -96,21 +103,23 @@ def _update(
     places = np.concatenate([part.places for part in parts])
     positions = np.concatenate([part.positions for part in parts])
     weight = np.concatenate([part.weight for part in parts])
+    told = weight * np.concatenate([part.told for part in parts])
     pairs, pair = np.unique(places * len(map_.positions) + positions, return_inverse=True)
     pair_places, pair_positions = np.divmod(pairs, len(map_.positions))
     predicted = np.bincount(pair, weights=weight, minlength=len(pairs))
     like = likelihood(map_, pair_places, evidence.sight, evidence.open)
-    joint = predicted * like
+    joint = np.bincount(pair, weights=told, minlength=len(pairs)) * like
     total = joint.sum()
     kept = _support(pair_places, joint / total, options.support)
     z = float(joint[kept].sum())
     q = joint[kept] / z
-    walked_mass = np.where(kept[pair[: len(walked.weight)]], walked.weight * like[pair[: len(walked.weight)]], 0.0) / z
+    count = len(walked.weight)
+    walked_mass = np.where(kept[pair[:count]], told[:count] * like[pair[:count]], 0.0) / z
     unexamined = 0.0 if displaced is not None or message is None else options.displacement / (options.displacement + z)
     return Belief(
         message=Message(pair_places[kept], pair_positions[kept], q),
         evidence=float(np.log(z)),
-        log_likelihood=np.log(like[kept]),
+        log_likelihood=np.log(joint[kept] / predicted[kept]),
         moved=max(0.0, 1.0 - float(walked_mass.sum())) if displaced is not None else 0.0,
         dropped=1.0 - z / float(total) + unexamined,
         examined=displaced is not None,

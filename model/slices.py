@@ -29,7 +29,7 @@ class Slice:
         places: `[n]` domain of s_t, by number.
         positions: `[m]` domain of p_t, by number.
         joint: `[n, m]` filtered Q(s_t, p_t).
-        transition: `[n, n']` B_s[a](s_t, s_t-1).
+        transition: `[n, n']` B_s[a](s_t, s_t-1), times `found_shut`.
         motion: `[m, m']` B_p[a](p_t, p_t-1).
         place: `[m, n]` A_p(p_t, s_t).
         sight_likelihood: `[n]` A_o[o_t, :](s_t).
@@ -76,7 +76,9 @@ def take_slice(
     likely = np.array([map_.A_p.probability(position, places) for position in positions.tolist()])
     transition, motion = np.zeros((len(places), 0)), np.zeros((len(positions), 0))
     if before is not None and action is not None:
-        transition = _transition(map_, places, before.places, action)
+        keys, p, _ = map_.B_s.mean(map_.rows(before.places, action))
+        p = p * found_shut(map_, before.places, keys, action, open_, slip=slip if was_open else 1.0 - slip)
+        transition = np.einsum("jk,ijk->ij", p, keys[None] == places[:, None, None])
         motion = _motion(map_, positions, before, action, was_open, slip)
     return Slice(
         step=step,
@@ -96,9 +98,27 @@ def take_slice(
     )
 
 
-def _transition(map_: CognitiveMap, places: Ints, before: Ints, action: int) -> Floats:
-    keys, p, _ = map_.B_s.mean(map_.rows(before, action))
-    return np.einsum("jk,ijk->ij", p, keys[None] == places[:, None, None])
+def found_shut(
+    map_: CognitiveMap, places: Ints, keys: Ints, action: int, open_: Sequence[bool], *, slip: float
+) -> Floats:
+    """`[n, k]` what P(c_t | s_t) P(p_t | p_t-1, a) is multiplied by for having come from s_t-1 to s_t.
+
+    Who did not get through a door, and now senses it shut, has one thing to explain, not three: that the place is the
+    same, that the position is, and that the door is shut. The first is in B_s; the others are taken out again.
+
+    Args:
+        map_: the map.
+        places: `[n]` s_t-1.
+        keys: `[n, k]` s_t.
+        action: a.
+        open_: for each action, whether its way is sensed open at t.
+        slip: probability that the position stays.
+    """
+    factor = np.ones(keys.shape)
+    if not open_[action]:
+        shut = (map_.blocked(places)[:, action] * slip)[:, None]
+        np.divide(1.0, shut, out=factor, where=(keys == places[:, None]) & (shut > 0.0))
+    return factor
 
 
 def _motion(map_: CognitiveMap, positions: Ints, before: Slice, action: int, was_open: bool, slip: float) -> Floats:
