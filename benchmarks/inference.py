@@ -111,7 +111,7 @@ def measured(support: int, steps: int, engines: Sequence[str], runs: int) -> dic
 def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--windows", type=int, nargs="+", default=[1, 5, 10, 20])
-    parser.add_argument("--supports", type=int, nargs="+", default=[2, 5, 10, 20, 40])
+    parser.add_argument("--supports", type=int, nargs="+", default=[2, 5, 10, 20, 40, 60])
     parser.add_argument("--engines", nargs="+", default=list(ENGINES), choices=ENGINES)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--json", type=Path)

@@ -1,15 +1,18 @@
-"""What forced exploring costs: seconds for 100 steps, seconds to import, megabytes of memory.
+"""What forced exploring costs: processor seconds for 100 steps, seconds to import, megabytes of memory.
 
     python benchmarks/step_time.py
-    python benchmarks/step_time.py --policies all --runs 3 --json step_time.json
+    python benchmarks/step_time.py --policies all --look-ahead 6 8 10 12 14 --runs 3 --json step_time.json
 
 The agent goes on exploring when there is nothing left to explore. A run is everything from an agent that knows
-nothing to its last action, the world's part included. Runs of one process share caches: `first` had none.
+nothing to its last action, the world's part included. Runs of one process share caches: `first` had none. A run that
+takes longer than `--seconds` is broken off, and the time of all steps worked out from those that were made (`made` says
+how many); policies that cannot be listed at all are left out.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import subprocess
 import sys
 import time
@@ -19,6 +22,7 @@ from statistics import median
 from typing import Any
 
 from cogmap.agent import Agent, Settings
+from cogmap.model import CogmapError
 from cogmap.planning import GENERATORS
 from cogmap.worlds import load_world
 from machine import write_json
@@ -26,22 +30,32 @@ from machine import write_json
 IMPORT = "import time; t = time.perf_counter(); import cogmap.agent; print(time.perf_counter() - t)"
 
 
-def walk(world_name: str, steps: int, settings: Settings, seed: int) -> float:
-    """Seconds that `steps` steps of a new agent take."""
+def walk(world_name: str, steps: int, settings: Settings, seed: int, seconds: float = math.inf) -> tuple[float, int]:
+    """Seconds that `steps` steps of a new agent take, and how many of them were made before the time was over."""
     world = load_world(world_name)
     observation, _ = world.reset(seed=seed)
-    begin = time.perf_counter()
+    made = 0
+    begin = now = time.process_time()
     agent = Agent(world.motions, settings=settings, seed=seed)
-    for _ in range(steps):
+    while made < steps and (made == 0 or now - begin < seconds):
         observation, *_ = world.step(agent.step(observation))
-    return time.perf_counter() - begin
+        made += 1
+        now = time.process_time()
+    return (now - begin) * steps / made, made
 
 
-def timed(world: str, steps: int, settings: Settings, runs: int) -> dict[str, Any]:
+def timed(world: str, steps: int, settings: Settings, runs: int, limit: float) -> dict[str, Any]:
     """Seconds of each run (run i has seed i), and what they come to."""
-    seconds = [walk(world, steps, settings, seed) for seed in range(runs)]
+    walks = [walk(world, steps, settings, seed, limit) for seed in range(runs)]
+    seconds = [spent for spent, _ in walks]
     spread = {"first": seconds[0], "median": median(seconds), "min": min(seconds)}
-    return {**{name: round(value, 4) for name, value in spread.items()}, "runs": [round(x, 4) for x in seconds]}
+    return {
+        "policies": settings.policies,
+        "look_ahead": settings.look_ahead,
+        **{name: round(value, 4) for name, value in spread.items()},
+        "runs": [round(x, 4) for x in seconds],
+        "made": min(made for _, made in walks),
+    }
 
 
 def import_seconds(times: int) -> float:
@@ -49,10 +63,10 @@ def import_seconds(times: int) -> float:
     return median(float(_fresh("-c", IMPORT)) for _ in range(times))
 
 
-def peak_megabytes(world: str, steps: int, look_ahead: int, policies: str) -> float:
+def peak_megabytes(asked: argparse.Namespace, look_ahead: int, policies: str) -> float:
     """Largest resident memory of a fresh process that walks once, Python and imports included."""
-    asked = (world, "--steps", str(steps), "--look-ahead", str(look_ahead), "--policies", policies, "--peak-only")
-    return float(_fresh(__file__, *asked))
+    walk_once = (asked.world, "--steps", str(asked.steps), "--seconds", str(asked.seconds), "--peak-only")
+    return float(_fresh(__file__, *walk_once, "--look-ahead", str(look_ahead), "--policies", policies))
 
 
 def _fresh(*arguments: str) -> str:
@@ -71,8 +85,9 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("world", nargs="?", default="4x4")
     parser.add_argument("--steps", type=int, default=100)
     parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--look-ahead", type=int, default=6)
+    parser.add_argument("--look-ahead", type=int, nargs="+", default=[6])
     parser.add_argument("--policies", nargs="+", default=["map_guided"], choices=[*GENERATORS, "all"])
+    parser.add_argument("--seconds", type=float, default=60.0, help="of a run, at most")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--peak-only", action="store_true", help="walk once and print megabytes")
     return parser.parse_args(given)
@@ -83,24 +98,30 @@ def main(given: Sequence[str] | None = None) -> None:
     asked = _arguments(given)
     names = list(GENERATORS) if "all" in asked.policies else asked.policies
     if asked.peak_only:
-        walk(asked.world, asked.steps, Settings(look_ahead=asked.look_ahead, policies=names[0]), 0)
+        settings = Settings(look_ahead=asked.look_ahead[0], policies=names[0])
+        walk(asked.world, asked.steps, settings, 0, asked.seconds)
         print(_own_peak())
         return
-    result: dict[str, Any] = {"world": asked.world, "steps": asked.steps, "look_ahead": asked.look_ahead}
+    result: dict[str, Any] = {"world": asked.world, "steps": asked.steps}
     result["import_seconds"] = round(import_seconds(min(asked.runs, 5)), 4)
     print(f"import cogmap.agent: {result['import_seconds']:.3f} s")
-    print(f"{asked.steps} steps of {asked.world}, look-ahead {asked.look_ahead}, {asked.runs} runs:")
-    result["policies"] = {}
-    for name in names:
-        row = timed(asked.world, asked.steps, Settings(look_ahead=asked.look_ahead, policies=name), asked.runs)
-        row["peak_megabytes"] = round(peak_megabytes(asked.world, asked.steps, asked.look_ahead, name), 1)
-        result["policies"][name] = row
-        print(
-            f"  {name:14} median {row['median']:.3f} s, min {row['min']:.3f} s, first {row['first']:.3f} s, "
-            f"peak {row['peak_megabytes']:.0f} MB",
-            flush=True,
-        )
+    print(f"{asked.steps} steps of {asked.world}, {asked.runs} runs: seconds, look-ahead first")
+    result["rows"] = [row for name in names for look_ahead in asked.look_ahead for row in _row(asked, name, look_ahead)]
     write_json(asked.json, result)
+
+
+def _row(asked: argparse.Namespace, name: str, look_ahead: int) -> list[dict[str, Any]]:
+    """One line of the table; none where the policies are too many."""
+    try:
+        row = timed(asked.world, asked.steps, Settings(look_ahead=look_ahead, policies=name), asked.runs, asked.seconds)
+    except CogmapError as error:
+        print(f"{look_ahead:4}  {name:14} {error}", flush=True)
+        return []
+    row["peak_megabytes"] = round(peak_megabytes(asked, look_ahead, name), 1)
+    times = f"median {row['median']:.3f}, min {row['min']:.3f}, first {row['first']:.3f}"
+    made = f" (from {row['made']} steps)" if row["made"] < asked.steps else ""
+    print(f"{look_ahead:4}  {name:14} {times}{made}; peak {row['peak_megabytes']:.0f} MB", flush=True)
+    return [row]
 
 
 if __name__ == "__main__":

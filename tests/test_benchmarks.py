@@ -1,12 +1,17 @@
 from __future__ import annotations
 
+import importlib
 import json
 import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from cogmap.agent import Agent
+from cogmap.experiments import Truth
+from cogmap.worlds import GRID, MazeEnv, labyrinth
 
 BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
 
@@ -22,17 +27,27 @@ def measured(name: str, tmp_path: Path, *arguments: str) -> tuple[str, dict[str,
 def test_step_time(tmp_path: Path) -> None:
     asked = ("3x3", "--steps", "3", "--runs", "2", "--look-ahead", "2", "--policies", "map_guided", "l_shaped")
     printed, result = measured("step_time.py", tmp_path, *asked)
-    assert (result["world"], result["steps"], result["look_ahead"]) == ("3x3", 3, 2)
-    assert set(result["policies"]) == {"map_guided", "l_shaped"}
-    for name, row in result["policies"].items():
-        assert name in printed
+    assert (result["world"], result["steps"]) == ("3x3", 3)
+    kinds = [(row["policies"], row["look_ahead"]) for row in result["rows"]]
+    assert kinds == [("map_guided", 2), ("l_shaped", 2)]
+    for row in result["rows"]:
+        assert row["policies"] in printed
         assert 0.0 < row["min"] <= row["median"]
         assert len(row["runs"]) == 2
         assert row["first"] == row["runs"][0]
+        assert row["made"] == 3
         assert 10.0 < row["peak_megabytes"] < 2000.0
     assert 0.0 < result["import_seconds"] < 30.0
     assert result["machine"]["cores"] >= 1
     assert result["machine"]["python"] == sys.version.split()[0]
+
+
+def test_step_time_breaks_off_what_takes_too_long_and_leaves_out_what_cannot_be_listed(tmp_path: Path) -> None:
+    asked = ("3x3", "--steps", "50", "--runs", "1", "--look-ahead", "1", "10", "--policies", "exhaustive")
+    printed, result = measured("step_time.py", tmp_path, *asked, "--seconds", "0")
+    (row,) = result["rows"]
+    assert (row["look_ahead"], row["made"]) == (1, 1)
+    assert "exhaustive: more than 2,000,000 policies at look-ahead 10" in printed
 
 
 def test_inference_engines_agree(tmp_path: Path) -> None:
@@ -71,6 +86,98 @@ def test_moves(measure: str, maze: str, variants: int, tmp_path: Path) -> None:
         assert 4.0 <= result["rows"][0]["rooms"] < 6.0
 
 
+def test_scale(tmp_path: Path) -> None:
+    asked = ("--rooms", "9", "40", "--steps", "5", "--moves", "2", "--mazes", "2", "--look-ahead", "3")
+    printed, result = measured("scale.py", tmp_path, *asked)
+    rows = {(row["part"], row["rooms"]): row for row in result["rows"]}
+    assert set(rows) == {(part, n) for part in ("localised", "goal", "lost", "save", "explore") for n in (9, 40)}
+    for (part, rooms), row in rows.items():
+        assert f"{rooms:8}  {part}" in printed
+        if part == "save":
+            assert min(row["save_s"], row["load_s"]) > 0.0
+            assert 100.0 < row["file_bytes_a_room"] < row["bytes_a_room"] < 20_000.0
+            continue
+        assert 0.0 < row["median_ms"] <= row["p99_ms"]
+        if part == "lost":
+            assert (row["moves"], row["recovered"]) == (2, 2)
+            assert row["to_recover"] >= 0.0
+        if part == "explore":
+            assert row["mazes"] == 2
+            assert rooms - 1 <= min(row["agent"], row["frontier"]) < 3 * rooms
+            assert row["steps"] == sum(row["of_each"]["agent"]) + 2  # the observation of the first room comes first
+
+
+def test_scale_says_when_memory_does_not_suffice(tmp_path: Path) -> None:
+    asked = ("--rooms", "900", "--parts", "localised", "--steps", "3", "--gigabytes", "0.3")
+    printed, result = measured("scale.py", tmp_path, *asked)
+    assert result["rows"] == [{"part": "localised", "rooms": 900, "failed": "more than 0.3 GB"}]
+    assert "more than 0.3 GB" in printed
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_known_agent_is_like_one_that_walked(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    known = importlib.import_module("known")
+    maze = labyrinth(25, loops=0.3, rng=np.random.default_rng(seed))
+    start = maze.rooms[7 * seed]
+    taught, walked, truth = known.known_agent(maze, start), Agent(GRID), Truth(maze, start)
+    world = MazeEnv(maze)
+    observation, _ = world.reset(options={"start": start})
+    walk = list(known.depth_first(maze, start))
+    for (_, room), (action, _) in zip(walk, [*walk[1:], (4, start)], strict=True):
+        assert world.position == room
+        walked.step(observation)
+        walked._action = action
+        observation, *_ = world.step(action)
+    for agent in (taught, walked):
+        assert truth.visited(agent.map)
+        assert truth.learned(agent.map)
+    assert taught.map.positions._labels == walked.map.positions._labels
+    for name in ("sensed", "walked", "visited_places"):
+        np.testing.assert_array_equal(getattr(taught.map, name), getattr(walked.map, name))
+    for name in ("A", "B", "positions_given_places"):
+        np.testing.assert_allclose(getattr(taught.map, name)(), getattr(walked.map, name)(), atol=1e-3)
+    taught.step(world.reset(options={"start": start})[0])
+    assert taught.belief.place == walked.belief.place == 0
+    assert taught.certain
+
+
+def test_peers_our_side_alone(tmp_path: Path) -> None:
+    asked = ("--places", "16", "--length", "3", "--seconds", "0.01", "--peers")
+    printed, result = measured("peers/run.py", tmp_path, *asked)
+    (row,) = result["rows"]
+    assert (row["places"], row["library"], row["ratio"], row["G_differs_by"]) == (16, "cogmap", 1.0, 0.0)
+    assert min(row["inference"], row["planning"]) > 0.0
+    assert result["policies"] == 36
+    assert "cogmap" in printed
+    assert result["versions"]["cogmap"]["numpy"] == np.__version__
+
+
+def test_peers_solve_the_same_problem_as_the_equations(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(BENCHMARKS / "peers"))
+    problem = importlib.import_module("problem").grid_problem(4, 3)
+    A, B, D = (problem[name] for name in ("A", "B", "D"))
+    for table in (A, B, D, np.exp(problem["log_C"])):
+        np.testing.assert_allclose(table.sum(axis=0), 1.0)
+    infer, plan, last = importlib.import_module("side_cogmap").side(problem)
+    infer()
+    plan()
+    posterior, gain = last()
+    q = (B[:, :, problem["action"]] @ D) * A[problem["sight"]]
+    np.testing.assert_allclose(posterior, q / q.sum(), atol=1e-12)
+    expected = []
+    for policy in problem["policies"]:
+        s, total = q / q.sum(), 0.0
+        for action in policy:
+            s = B[:, :, action] @ s
+            o = A @ s
+            total += (
+                o @ problem["log_C"] - (o * np.log(np.maximum(o, 1e-300))).sum()
+            )  # sights are certain: no ambiguity
+        expected.append(total)
+    np.testing.assert_allclose(gain, expected, atol=1e-9)
+
+
 def test_unknown_names_are_refused(tmp_path: Path) -> None:
     for arguments in (["discounts"], ["rates", "--mazes", "5x5"]):
         command = [sys.executable, str(BENCHMARKS / "ablations.py"), *arguments]
@@ -79,7 +186,8 @@ def test_unknown_names_are_refused(tmp_path: Path) -> None:
         assert arguments[-1] in done.stderr
 
 
-@pytest.mark.parametrize("name", ["step_time.py", "inference.py", "ablations.py", "moves.py"])
+@pytest.mark.parametrize("name", ["step_time.py", "inference.py", "ablations.py", "moves.py", "scale.py"])
 def test_bad_arguments_are_refused(name: str) -> None:
-    done = subprocess.run([sys.executable, str(BENCHMARKS / name), "--runs", "many"], capture_output=True, check=False)
+    option = "--steps" if name == "scale.py" else "--runs"
+    done = subprocess.run([sys.executable, str(BENCHMARKS / name), option, "many"], capture_output=True, check=False)
     assert done.returncode == 2

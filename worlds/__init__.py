@@ -7,6 +7,7 @@ from .drawing import draw, label_colour
 from .environment import MazeEnv, Observation
 from .errors import WorldError
 from .generate import comb, hall, random_maze, rings, spiral
+from .labyrinth import labyrinth
 from .load import load_world, register_worlds
 from .maze import Door, Label, Maze, Position
 from .motions import GRID, Motions
@@ -31,6 +32,7 @@ __all__ = [
     "format_maze",
     "hall",
     "label_colour",
+    "labyrinth",
     "load_world",
     "parse_maze",
     "random_maze",

@@ -180,7 +180,9 @@ class MazeEnv(gym.Env[Observation, Action]):
         return index
 
     def _random_room(self, closures: Closures) -> Position:
-        rooms = [room for room in self.maze.rooms if room not in closures.rooms]
+        rooms = self.maze.rooms
+        if closures.rooms:
+            rooms = tuple(room for room in rooms if room not in closures.rooms)
         if not rooms:
             raise WorldError(f"every room of {self.maze.name!r} is closed; open one, or reset without keep_closed")
         return rooms[int(self.np_random.integers(len(rooms)))]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from itertools import chain
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -41,8 +42,7 @@ class Maze:
     def __post_init__(self) -> None:
         if not self.sights:
             raise WorldError(f"maze {self.name!r} has no rooms; give at least one")
-        sights = {_position(self.name, room): label for room, label in self.sights.items()}
-        sights = _labels(self.name, sights)
+        sights = _labels(self.name, _positions(self.name, self.sights))
         object.__setattr__(self, "sights", MappingProxyType(sights))
         object.__setattr__(self, "rooms", tuple(sorted(sights)))
         if lost := unreachable(self.rooms):
@@ -90,10 +90,8 @@ class Maze:
 def unreachable(rooms: Iterable[Position]) -> tuple[Position, ...]:
     """The rooms outside the largest connected part, in row-major order."""
     left = set(rooms)
-    parts: list[set[Position]] = []
-    while left:
-        parts.append(_part(left, min(left)))
-        left -= parts[-1]
+    parts = [_part(left, min(left))] if left else []
+    parts += [_part(left, start) for start in sorted(left) if start in left]
     parts.sort(key=len, reverse=True)
     return tuple(sorted(room for part in parts[1:] for room in part))
 
@@ -110,13 +108,23 @@ def _around(room: Position) -> tuple[Position, ...]:
     return tuple((row + down, column + right) for down, right in GRID.displacements if down or right)
 
 
-def _part(rooms: set[Position], start: Position) -> set[Position]:
-    found, edge = {start}, [start]
-    while edge:
-        new = [room for room in _around(edge.pop()) if room in rooms and room not in found]
-        found.update(new)
-        edge.extend(new)
+def _part(left: set[Position], start: Position) -> list[Position]:
+    """The rooms connected with `start`, which are taken out of `left`."""
+    left.discard(start)
+    found = [start]
+    for row, column in found:  # grows while it is read
+        for room in ((row - 1, column), (row + 1, column), (row, column - 1), (row, column + 1)):
+            if room in left:
+                left.discard(room)
+                found.append(room)
     return found
+
+
+def _positions(name: str, sights: Mapping[Any, Any]) -> dict[Position, Any]:
+    plain = set(map(type, sights)) == {tuple} and set(map(len, sights)) == {2}
+    if plain and set(map(type, chain.from_iterable(sights))) == {int} and min(chain.from_iterable(sights)) >= 0:
+        return dict(sights)  # as they should be: a million are checked in a second
+    return {_position(name, room): label for room, label in sights.items()}
 
 
 def _position(name: str, room: Any) -> Position:
@@ -129,13 +137,21 @@ def _position(name: str, room: Any) -> Position:
     return row, column
 
 
-def _labels(name: str, sights: Mapping[Position, Any]) -> dict[Position, Label]:
-    if all(isinstance(label, str) for label in sights.values()):
-        for room, label in sights.items():
-            if not label or not label.isprintable() or len(label.split()) != 1 or label != label.strip():
+def _labels(name: str, sights: dict[Position, Any]) -> dict[Position, Label]:
+    kinds = set(map(type, sights.values()))
+    if kinds == {int} and min(sights.values()) >= 0 and max(sights.values()) <= LARGEST_LABEL:
+        return sights
+    if all(issubclass(kind, str) for kind in kinds):
+        bad = {label for label in set(sights.values()) if not _is_word(label)}
+        for room, label in sights.items() if bad else ():
+            if label in bad:
                 raise WorldError(f"maze {name!r}: label {label!r} of room {room} is no word; use one without spaces")
-        return dict(sights)
+        return sights
     return {room: _number(name, room, label) for room, label in sights.items()}
+
+
+def _is_word(label: str) -> bool:
+    return bool(label) and label.isprintable() and len(label.split()) == 1 and label == label.strip()
 
 
 def _number(name: str, room: Position, label: Any) -> int:

@@ -1,0 +1,58 @@
+"""Maps of mazes that would take too long to walk through: the same lessons, without inference and planning."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from cogmap.agent import Agent, Settings
+from cogmap.model import Learner
+from cogmap.model.growth import PredictedGrowth
+from cogmap.worlds import GRID, Maze, MazeEnv, Position
+
+
+def known_agent(maze: Maze, start: Position, *, settings: Settings | None = None, seed: int = 0) -> Agent:
+    """An agent with the map of one that has walked through all of the maze from `start`, depth first, and is back.
+
+    It has taken no step yet: its first observation must be that of `start`.
+    """
+    agent = Agent(GRID, settings=settings, seed=seed)
+    map_, rates = agent.map, agent.settings.rates
+    learner, growth, world = Learner(map_, rates), PredictedGrowth(), MazeEnv(maze)
+    world.reset(options={"start": start})
+    place = 0
+    for step, (action, room) in enumerate(depth_first(maze, start)):
+        learner.begin(step)
+        if action is not None:
+            before, place = place, map_.place_at((room[0] - start[0], room[1] - start[1])) or 0
+            learner.transition(before, action, place, 1.0)
+        observation = world.displace(room)
+        open_ = observation["open"].tolist()
+        map_.mark_visited(place)
+        learner.sight(place, map_.new_sight(observation["sight"], step=step), 1.0)
+        learner.position(place, int(map_.position_index[place]), 1.0)
+        for new in growth.look(map_, place, open_, step=step):
+            learner.recall(new)
+        learner.doors(place, open_, 1.0)
+        learner.take_lessons()
+    return agent
+
+
+def depth_first(maze: Maze, start: Position) -> Iterator[tuple[int | None, Position]]:
+    """A walk through all rooms and back: each action (None at the start), and the room that it leads to."""
+    back: dict[Position, int] = {}
+    seen, track = {start}, [start]
+    yield None, start
+    while track:
+        row, column = track[-1]
+        for action, (down, right) in enumerate(GRID.displacements):
+            ahead = (row + down, column + right)
+            if ahead in maze.sights and ahead not in seen:
+                seen.add(ahead)
+                track.append(ahead)
+                back[ahead] = GRID.displacements.index((-down, -right))
+                yield action, ahead
+                break
+        else:
+            room = track.pop()
+            if track:
+                yield back[room], track[-1]
