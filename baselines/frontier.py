@@ -2,63 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
-from typing import Any
+from collections.abc import Callable, Sequence
 
-import numpy as np
-
-from ..worlds import Motions
-from .reckoning import Place, Reckoner, best
+from .explorer import Explorer
+from .reckoning import Place
 
 
-class FrontierAgent:
+class FrontierAgent(Explorer):
     """Goes by a shortest known way to the nearest place seen through a door but not entered.
 
     Draws are settled at random, alike for each pair of nearest place and first action towards it. Stays
     when there is nothing left to enter, or no open way to it. With a preference it goes to the nearest place where it
     has seen what it prefers, and stays; while it knows of none it explores.
-
-    Args:
-        motions: the actions, such as `world.motions`.
-        seed: of the draws.
     """
 
-    def __init__(self, motions: Motions, *, seed: int | np.random.SeedSequence | None = None) -> None:
-        self._reckoner = Reckoner(motions)
-        self._actions = range(len(motions.names))
-        self._rng = np.random.default_rng(seed)
-        self._action: int | None = None
-        self._wanted: frozenset[Hashable] = frozenset()
-
-    @property
-    def position(self) -> Place:
-        """Where the agent takes itself to be, relative to its start."""
-        return self._reckoner.track.place
-
-    @property
-    def visited(self) -> frozenset[Place]:
-        """The places entered, relative to the start."""
-        return frozenset(self._reckoner.track.sights)
-
-    @property
-    def edges(self) -> Mapping[tuple[Place, int], Place]:
-        """Where each action leads from each place entered, relative to the start; a wall leads back."""
-        return dict(self._reckoner.track.edges)
-
-    def prefer(self, sights: Mapping[Any, float]) -> None:
-        """Seek the best of these sights, those with the highest weight; explore if there are none."""
-        self._wanted = best(sights)
-
-    def step(self, observation: Mapping[str, Any]) -> int:
-        """The next action after `{"sight": label, "open": flag an action}`.
-
-        Raises:
-            WorldError: the observation lacks a part or has another number of actions.
-        """
-        self._reckoner.sense(self._action, observation)
-        ways = [] if observation["sight"] in self._wanted else self._ways()
-        self._action = ways[int(self._rng.integers(len(ways)))][1] if ways else self._reckoner.stay
-        return self._action
+    def _choose(self, is_open: Sequence[bool]) -> int:
+        ways = self._ways()
+        return ways[int(self._rng.integers(len(ways)))][1] if ways else self._reckoner.stay
 
     def _ways(self) -> list[tuple[Place, int]]:
         sights = self._reckoner.track.sights
@@ -73,7 +33,7 @@ class FrontierAgent:
         while level:
             ahead: dict[Place, set[int]] = {}
             for place, firsts in level.items():
-                for action in self._actions:
+                for action in range(len(self._reckoner.vectors)):
                     other = track.edges[place, action]
                     if other not in seen:
                         ahead.setdefault(other, set()).update(firsts or {action})

@@ -47,15 +47,15 @@ class Reckoner:
     """
 
     def __init__(self, motions: Motions) -> None:
-        self._vectors = tuple(tuple(vector) for vector in motions.displacements)
-        zero = tuple(0 for _ in self._vectors[0])
-        if zero not in self._vectors:
+        self.vectors = tuple(tuple(vector) for vector in motions.displacements)
+        zero = tuple(0 for _ in self.vectors[0])
+        if zero not in self.vectors:
             raise WorldError("baselines need an action that stays; add one with a displacement of zeros")
-        self.stay = self._vectors.index(zero)
-        backwards = [tuple(-x for x in vector) for vector in self._vectors]
-        if missing := sorted(set(backwards) - set(self._vectors)):
+        self.stay = self.vectors.index(zero)
+        backwards = [tuple(-x for x in vector) for vector in self.vectors]
+        if missing := sorted(set(backwards) - set(self.vectors)):
             raise WorldError(f"baselines need a way back for every action; add one with {missing[0]}")
-        self._inverse = [self._vectors.index(vector) for vector in backwards]
+        self._inverse = [self.vectors.index(vector) for vector in backwards]
         self._tracks = [Track(zero)]
 
     @property
@@ -95,7 +95,7 @@ class Reckoner:
 
     def _only_shut(self, track: Track, action: int, is_open: Sequence[bool]) -> bool:
         # every other door of the room is as it was
-        was = [track.edges[track.place, other] != track.place for other in range(len(self._vectors))]
+        was = [track.edges[track.place, other] != track.place for other in range(len(self.vectors))]
         return all(
             before == now
             for other, (before, now) in enumerate(zip(was, is_open, strict=True))
@@ -107,7 +107,7 @@ class Reckoner:
 
     def _record(self, track: Track, sight: Hashable, is_open: Sequence[bool]) -> None:
         track.sights.setdefault(track.place, sight)
-        for action, vector in enumerate(self._vectors):
+        for action, vector in enumerate(self.vectors):
             beyond = tuple(x + dx for x, dx in zip(track.place, vector, strict=True))
             track.edges[track.place, action] = beyond if is_open[action] else track.place
 
@@ -116,11 +116,6 @@ class Reckoner:
             sight, flags = observation["sight"], np.asarray(observation["open"], dtype=bool)
         except (KeyError, TypeError, ValueError) as error:
             raise WorldError("an observation needs a 'sight' and an 'open' flag for each action") from error
-        if flags.shape != (len(self._vectors),):
-            raise WorldError(f"'open' has shape {flags.shape}; give one flag an action, {len(self._vectors)}")
+        if flags.shape != (len(self.vectors),):
+            raise WorldError(f"'open' has shape {flags.shape}; give one flag an action, {len(self.vectors)}")
         return sight, flags.tolist()
-
-
-def best(sights: Mapping[Any, float]) -> frozenset[Hashable]:
-    """The sights that weigh most."""
-    return frozenset(sight for sight, weight in sights.items() if weight == max(sights.values()))

@@ -3,6 +3,7 @@
     python benchmarks/moves.py kidnap       moved after exploring, in eighteen mazes that are not built in
     python benchmarks/moves.py doors        the same with less sharp priors of doors
     python benchmarks/moves.py exploring    moved once while exploring the built-in mazes, into a room seen before
+    python benchmarks/moves.py shut         shut out of rooms that close the moment it sets out for them
     python benchmarks/moves.py search       steps until each label is first seen, beside nearest-frontier search
 
 Run i has seed i. `--mazes` chooses some of them, `--json FILE` keeps the rows.
@@ -20,9 +21,23 @@ import numpy as np
 from cogmap.agent import Agent, Settings
 from cogmap.baselines import FrontierAgent
 from cogmap.experiments import Truth, Walker, kidnap
-from cogmap.experiments.exploring import draw_start
+from cogmap.experiments.exploring import default_steps, draw_start
+from cogmap.experiments.session import explored
 from cogmap.model import Priors
-from cogmap.worlds import GRID, MAZES, Maze, MazeEnv, Position, comb, hall, random_maze, rings, spiral
+from cogmap.worlds import (
+    GRID,
+    MAZES,
+    Maze,
+    MazeEnv,
+    Position,
+    WorldError,
+    comb,
+    hall,
+    random_maze,
+    rings,
+    shortest_path,
+    spiral,
+)
 from machine import write_json
 
 Row = dict[str, Any]
@@ -123,6 +138,61 @@ def moved_while_exploring(maze: Maze, seed: int) -> tuple[bool, int]:
     return len(agent.map.places) == len(rooms) and Truth(maze, start).learned(agent.map), wrong
 
 
+def shut_rows(name: str, maze: Maze, runs: int) -> list[Row]:
+    """By how a door shut in the face is counted: runs right about it the step after, and goals reached all the same."""
+    done = [shut_out(maze, seed) for seed in range(runs)]
+    with (
+        patch("cogmap.inference.filter.found_shut", _thrice),
+        patch("cogmap.model.slices.found_shut", _thrice),
+    ):
+        before = [shut_out(maze, seed) for seed in range(runs)]
+    return [
+        {"counted": label, "right": sum(right for right, _ in part), "reached": sum(there for _, there in part)}
+        for label, part in (("once", done), ("three times", before))
+    ]
+
+
+def _thrice(map_: Any, places: Any, keys: Any, action: int, open_: Any, *, slip: float) -> Any:
+    return np.ones(keys.shape)
+
+
+def shut_out(maze: Maze, seed: int) -> tuple[bool, bool]:
+    """Explored and at rest, sent to another room, and shut out of the first two rooms that it can do without.
+
+    Answers whether it was certain and right after each, and whether it stayed at the goal within six steps a room.
+    """
+    session = explored("moves", maze, settings=None, seed=seed, most=default_steps(maze))
+    agent, world, rng = session.agent, session.world, np.random.default_rng(seed)
+    goal = maze.rooms[int(rng.integers(len(maze.rooms)))]
+    place = agent.map.place_at((goal[0] - session.start[0], goal[1] - session.start[1]))
+    agent.prefer({}, places={} if place is None else {place: 8.0})
+    right, closed = True, list[Position]()
+    for _ in range(6 * len(maze.rooms)):
+        action = agent.step(world.observe())
+        if world.position == goal and action == agent.map.motions.stay:
+            return right, True
+        down, across = GRID.displacements[action]
+        ahead = (world.position[0] + down, world.position[1] + across)
+        shut = len(closed) < 2 and ahead not in (goal, world.position) and _way_round(maze, [*closed, ahead], goal)
+        if shut:
+            closed.append(ahead)
+            world.close_room(ahead)
+        world.step(action)
+        if shut:
+            action = agent.step(world.observe())
+            right = right and agent.certain and agent.belief.place == session.true_place
+            world.step(action)
+    return right, False
+
+
+def _way_round(maze: Maze, closed: list[Position], goal: Position) -> bool:
+    left = [room for room in maze.rooms if room not in closed]
+    try:
+        return all(shortest_path(maze, room, goal, closed=closed) for room in left)
+    except WorldError:
+        return False
+
+
 def search_rows(name: str, maze: Maze, runs: int) -> list[Row]:
     """Steps until a label is first seen, mean over all labels, and the same over all rooms."""
     walkers: dict[str, Callable[[np.random.SeedSequence], Walker]] = {
@@ -157,6 +227,7 @@ MEASURES: Mapping[str, tuple[Callable[[str, Maze, int], list[Row]], Mapping[str,
     "kidnap": (kidnap_rows, OTHERS),
     "doors": (doors_rows, OTHERS),
     "exploring": (exploring_rows, MAZES),
+    "shut": (shut_rows, MAZES),
     "search": (search_rows, MAZES),
 }
 
@@ -182,7 +253,7 @@ def main(given: Sequence[str] | None = None) -> None:
                 f"{key} {value:.2f}" if isinstance(value, float) else f"{key} {value}" for key, value in row.items()
             )
             print(f"{name:13} {', '.join(values)}", flush=True)
-    for key in ("recovered", "intact", "right", "labels", "rooms"):
+    for key in ("recovered", "intact", "right", "reached", "labels", "rooms"):
         if key in rows[0]:
             print(f"{key}: {_totals(rows, key)}")
     write_json(asked.json, {"measure": asked.measure, "runs": asked.runs, "rows": rows})
@@ -192,7 +263,9 @@ def _totals(rows: Sequence[Row], key: str) -> str:
     """Sum of counts, mean of means, by variant."""
     kinds: dict[str, list[float]] = {}
     for row in rows:
-        variant = next((str(row[name]) for name in ("priors", "changes its mind", "walker") if name in row), "all")
+        variant = next(
+            (str(row[name]) for name in ("priors", "changes its mind", "counted", "walker") if name in row), "all"
+        )
         kinds.setdefault(variant, []).append(row[key])
     counts = isinstance(rows[0][key], int)
     return ", ".join(

@@ -146,8 +146,14 @@ CASES = [
     (flickering_door, 20, 2, 60),
 ]
 
-# seeds that are not got over: each look at a room that was lied about is explained by having been moved
-NEVER: dict[tuple[str, str], set[int]] = {("wrong_sight", "t_maze_alias"): {5, 8}}
+# seeds that are not got over: each look at a room that was lied about is explained by having been moved (t_maze_alias),
+# or the lie was the sight of the room before, beside a wall, so that it seemed to have been shut out
+NEVER: dict[tuple[str, str], set[int]] = {
+    ("wrong_sight", "3x3"): {0},
+    ("wrong_sight", "3x3_alias"): {0, 7},
+    ("wrong_sight", "4x4"): {5},
+    ("wrong_sight", "t_maze_alias"): {5, 8},
+}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -43,7 +43,8 @@ def test_every_command_of_the_readme_exists() -> None:
 
 
 def test_the_table_has_every_maze() -> None:
-    assert [name for name in re.findall(r"^\| `?(\w+)`? +\|", README, re.M) if name in MAZES] == list(MAZES)
+    named = [name for name in re.findall(r"^\| `?(\w+)`? +\|", README, re.M) if name in MAZES]
+    assert list(dict.fromkeys(named)) == list(MAZES)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))

@@ -2,61 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import Executor
-from typing import TYPE_CHECKING
+from typing import Unpack
 
-from ...agent import Settings
 from .exploration_rows import ExplorationResult, Factor
-from .grid import MODELS, TABLE, Grid
+from .grid import MODELS, TABLE, Grid, Options, run_grid
 from .grid_rows import LEARN, TITLES, Cells, summary_table
 from .published import AUTHORS_LEARN, PAPER_LEARN
 from .report import NONE, Table, Value
 from .steps import LEGEND, Steps, factor_text
 
-if TYPE_CHECKING:
-    from ..ledger import Ledger
-
 GRID = Grid(TABLE, MODELS)
 
 
-def exploration_study(
-    *,
-    agents: int,
-    seed: int = 0,
-    settings: Settings | None = None,
-    executor: Executor | None = None,
-    ledger: Ledger | None = None,
-    on_done: Callable[[], None] | None = None,
-    grid: Grid | None = None,
-    max_steps: int | None = None,
-) -> ExplorationResult:
+def exploration_study(**options: Unpack[Options]) -> ExplorationResult:
     """Let every model explore every maze of the paper's table.
-
-    Args:
-        agents: runs of each model in each maze, with the seeds `seed`, `seed` + 1, ...
-        seed: of the first; a seed draws start and agent.
-        settings: of `cogmap`.
-        executor: where the runs are made, here if None; the result does not depend on it, but for seconds.
-        ledger: keeps finished runs; what it holds is not run again.
-        on_done: called after each of the `exploration_tasks(agents)` runs.
-        grid: mazes and models; `GRID` unless given.
-        max_steps: moves after which a run gives up, 600 unless given.
 
     Raises:
         CogmapError: `agents` below 1, a negative seed, or a process was killed.
     """
-    cells = (grid or GRID).run(
-        "exploration",
-        runs=agents,
-        seed=seed,
-        settings=settings,
-        executor=executor,
-        ledger=ledger,
-        on_done=on_done,
-        max_steps=max_steps,
-    )
-    return ExplorationResult(cells)
+    return ExplorationResult(run_grid("exploration", GRID, **options))
 
 
 def exploration_tasks(agents: int) -> int:

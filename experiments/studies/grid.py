@@ -9,6 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Required, TypedDict, Unpack
 
 from ...agent import Settings
 from ...model.errors import CogmapError
@@ -53,34 +54,56 @@ class Grid:
             for number in range(seed, seed + runs)
         ]
 
-    def run(
-        self,
-        name: str,
-        *,
-        runs: int,
-        seed: int,
-        settings: Settings | None,
-        executor: Executor | None,
-        ledger: Ledger | None,
-        on_done: Callable[[], None] | None,
-        max_steps: int | None = None,
-    ) -> Cells:
-        """Run what the ledger does not hold yet; `on_done` is called after each cell.
 
-        Raises:
-            CogmapError: `runs` below 1, a negative seed, or what `run_cells` raises.
-        """
-        if runs < 1:
-            raise CogmapError(f"{name}: agents is {runs}; use 1 or more")
-        if seed < 0:
-            raise CogmapError(f"{name}: seed is {seed}; use 0 or more")
-        cells, cap = self.cells(runs, seed), CAP if max_steps is None else max_steps
-        rows: dict[Key, Row] = {}
-        for row in run_cells(cells, settings=settings, max_steps=cap, ledger=ledger, executor=executor):
-            rows[row.key] = row
-            if on_done is not None:
-                on_done()
-        return Cells(self, cap, tuple(rows[cell.key] for cell in cells))
+class Options(TypedDict, total=False):
+    """How a grid is run.
+
+    Attributes:
+        agents: runs of each model in each maze, with the seeds `seed`, `seed` + 1, ...
+        seed: of the first; a seed draws start and agent.
+        settings: of `cogmap`.
+        executor: where the runs are made, here if None; the result does not depend on it, but for seconds.
+        ledger: keeps finished runs; what it holds is not run again.
+        on_done: called after each cell.
+        grid: mazes and models, instead of those of the study.
+        max_steps: moves after which a run gives up, `CAP` unless given.
+    """
+
+    agents: Required[int]
+    seed: int
+    settings: Settings | None
+    executor: Executor | None
+    ledger: Ledger | None
+    on_done: Callable[[], None] | None
+    grid: Grid | None
+    max_steps: int | None
+
+
+def run_grid(name: str, own: Grid, /, **options: Unpack[Options]) -> Cells:
+    """Run what the ledger does not hold yet of the study `name`, whose own grid is `own`.
+
+    Raises:
+        CogmapError: `agents` below 1, a negative seed, or what `run_cells` raises.
+    """
+    grid, runs, seed = options.get("grid") or own, options["agents"], options.get("seed", 0)
+    if runs < 1:
+        raise CogmapError(f"{name}: agents is {runs}; use 1 or more")
+    if seed < 0:
+        raise CogmapError(f"{name}: seed is {seed}; use 0 or more")
+    cap, on_done = options.get("max_steps"), options.get("on_done")
+    cells, cap = grid.cells(runs, seed), CAP if cap is None else cap
+    rows: dict[Key, Row] = {}
+    for row in run_cells(
+        cells,
+        settings=options.get("settings"),
+        max_steps=cap,
+        ledger=options.get("ledger"),
+        executor=options.get("executor"),
+    ):
+        rows[row.key] = row
+        if on_done is not None:
+            on_done()
+    return Cells(grid, cap, tuple(rows[cell.key] for cell in cells))
 
 
 def ledger_in(folder: Path, settings: Settings) -> Ledger:

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any, Unpack
 
-from ...agent import Settings
 from ...worlds import MAZES
-from .grid import Grid
+from .grid import Grid, Options, run_grid
 from .grid_rows import COMPLETE, Cells
 from .report import Table
 from .steps import LEGEND, Steps
-
-if TYPE_CHECKING:
-    from ..ledger import Ledger
 
 GROWN = ("static", "observed", "predicted")
 GRID = Grid(tuple(MAZES), ("cogmap",), GROWN)
@@ -49,35 +43,13 @@ class GrowthResult:
         }
 
 
-def growth_study(
-    *,
-    agents: int,
-    seed: int = 0,
-    settings: Settings | None = None,
-    executor: Executor | None = None,
-    ledger: Ledger | None = None,
-    on_done: Callable[[], None] | None = None,
-    grid: Grid | None = None,
-    max_steps: int | None = None,
-) -> GrowthResult:
+def growth_study(**options: Unpack[Options]) -> GrowthResult:
     """Let agents that grow their map in each way explore the eight mazes.
-
-    The arguments are those of `exploration_study`.
 
     Raises:
         CogmapError: `agents` below 1, a negative seed, or a process was killed.
     """
-    cells = (grid or GRID).run(
-        "growth",
-        runs=agents,
-        seed=seed,
-        settings=settings,
-        executor=executor,
-        ledger=ledger,
-        on_done=on_done,
-        max_steps=max_steps,
-    )
-    return GrowthResult(cells)
+    return GrowthResult(run_grid("growth", GRID, **options))
 
 
 def growth_tasks(agents: int) -> int:

@@ -2,53 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import Executor
-from typing import TYPE_CHECKING
+from typing import Unpack
 
-from ...agent import Settings
-from .grid import MODELS, TABLE, Grid
+from .grid import MODELS, TABLE, Grid, Options, run_grid
 from .grid_rows import TITLES, VISIT, summary_table
 from .published import AUTHORS_ROOMS, FASTER
 from .report import NONE, Table, Value
 from .rooms_rows import Faster, RoomsResult
 from .steps import LEGEND, MARK, Steps
 
-if TYPE_CHECKING:
-    from ..ledger import Ledger
-
 GRID = Grid(TABLE, ("cogmap", "frontier", "random", *MODELS[1:]))
 
 
-def rooms_study(
-    *,
-    agents: int,
-    seed: int = 0,
-    settings: Settings | None = None,
-    executor: Executor | None = None,
-    ledger: Ledger | None = None,
-    on_done: Callable[[], None] | None = None,
-    grid: Grid | None = None,
-    max_steps: int | None = None,
-) -> RoomsResult:
+def rooms_study(**options: Unpack[Options]) -> RoomsResult:
     """Let every model, nearest-frontier search and a random walk explore every maze of the paper's table.
-
-    The arguments are those of `exploration_study`.
 
     Raises:
         CogmapError: `agents` below 1, a negative seed, or a process was killed.
     """
-    cells = (grid or GRID).run(
-        "rooms",
-        runs=agents,
-        seed=seed,
-        settings=settings,
-        executor=executor,
-        ledger=ledger,
-        on_done=on_done,
-        max_steps=max_steps,
-    )
-    return RoomsResult(cells)
+    return RoomsResult(run_grid("rooms", GRID, **options))
 
 
 def rooms_tasks(agents: int) -> int:
