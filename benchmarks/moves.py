@@ -152,7 +152,7 @@ def shut_rows(name: str, maze: Maze, runs: int) -> list[Row]:
     ]
 
 
-def _thrice(map_: Any, places: Any, keys: Any, action: int, open_: Any, *, slip: float) -> Any:
+def _thrice(map_: Any, places: Any, keys: Any, p: Any, action: int, open_: Any, *, slip: float) -> Any:
     return np.ones(keys.shape)
 
 

@@ -69,7 +69,7 @@ def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: Fil
     n, slots = keys.shape
     places = np.concatenate([keys.ravel(), keys.ravel()])
     positions = np.repeat(np.concatenate([ahead, message.positions]), slots)
-    told = found_shut(map_, message.places, keys, action, evidence.open, slip=1.0 - moves)
+    told = found_shut(map_, message.places, keys, p, action, evidence.open, slip=1.0 - moves)
     weight = (message.mass[:, None] * p).ravel()
     weight = np.concatenate([weight * moves, weight * (1.0 - moves)]) * (1.0 - options.displacement)
     source, told = np.tile(np.repeat(np.arange(n), slots), 2), np.tile(told.ravel(), 2)

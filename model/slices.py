@@ -77,7 +77,7 @@ def take_slice(
     transition, motion = np.zeros((len(places), 0)), np.zeros((len(positions), 0))
     if before is not None and action is not None:
         keys, p, _ = map_.B_s.mean(map_.rows(before.places, action))
-        p = p * found_shut(map_, before.places, keys, action, open_, slip=slip if was_open else 1.0 - slip)
+        p = p * found_shut(map_, before.places, keys, p, action, open_, slip=slip if was_open else 1.0 - slip)
         transition = np.einsum("jk,ijk->ij", p, keys[None] == places[:, None, None])
         motion = _motion(map_, positions, before, action, was_open, slip)
     return Slice(
@@ -99,25 +99,27 @@ def take_slice(
 
 
 def found_shut(
-    map_: CognitiveMap, places: Ints, keys: Ints, action: int, open_: Sequence[bool], *, slip: float
+    map_: CognitiveMap, places: Ints, keys: Ints, p: Floats, action: int, open_: Sequence[bool], *, slip: float
 ) -> Floats:
-    """`[n, k]` what P(c_t | s_t) P(p_t | p_t-1, a) is multiplied by for having come from s_t-1 to s_t.
+    """`[n, k]` what the factors of this step are multiplied by for having come from s_t-1 to s_t.
 
     Who did not get through a door, and now senses it shut, has one thing to explain, not three: that the place is the
-    same, that the position is, and that the door is shut. The first is in B_s; the others are taken out again.
+    same, that the position is, and that the door is shut. The less probable of the first two stays, the others are
+    taken out again.
 
     Args:
         map_: the map.
         places: `[n]` s_t-1.
         keys: `[n, k]` s_t.
+        p: `[n, k]` B_s[a](s_t, s_t-1).
         action: a.
         open_: for each action, whether its way is sensed open at t.
         slip: probability that the position stays.
     """
     factor = np.ones(keys.shape)
     if not open_[action]:
-        shut = (map_.blocked(places)[:, action] * slip)[:, None]
-        np.divide(1.0, shut, out=factor, where=(keys == places[:, None]) & (shut > 0.0))
+        others = map_.blocked(places)[:, action, None] * np.maximum(p, slip)
+        np.divide(1.0, others, out=factor, where=(keys == places[:, None]) & (others > 0.0))
     return factor
 
 

@@ -73,7 +73,7 @@ def brute_force(
     predicted = joint.copy()
     if not evidence.open[a]:  # not having got through and sensing the door shut are one event
         for s in range(S):
-            joint[s, :, s, :, 0] /= map_.blocked(np.array([s]))[0, a] * (1.0 - moves)
+            joint[s, :, s, :, 0] /= map_.blocked(np.array([s]))[0, a] * max(B[s, s, a], 1.0 - moves)
     return joint * like[:, None, None, None, None], predicted
 
 
