@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
 from ..model.motions import Motions
+from .transitions import Transitions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -31,7 +32,8 @@ class Reach:
         multiplicity: `[O]` sights that each row stands for.
         log_C: `[O]` log preference of each of the sights in the row, in nats (its weight included).
         log_C_place: `[R]` log preference of being in each place, in nats; zero where none is given.
-        B: `[R, R, K]` P(s' | s, a); `B[:, s, a]` sums to one.
+        B: `[R, R, K]` P(s' | s, a); `B[:, s, a]` sums to one. An array, or `Transitions`, which holds the successors
+            alone.
         collision: `[R, K]` P(blocked | s, a); zero for `stay`.
         collision_cost: -log P(c = 1) of the preferred outcomes, in nats.
         sight_information: `[R, N + 1]` what `n` sights of a place teach about its column of A_o, in
@@ -54,7 +56,7 @@ class Reach:
     multiplicity: Floats
     log_C: Floats
     log_C_place: Floats
-    B: Floats
+    B: Floats | Transitions
     collision: Floats
     collision_cost: float
     sight_information: Floats
@@ -83,8 +85,8 @@ class Reach:
         for name in ("sight_information", "position_information", "transition_information"):
             if getattr(self, name).shape[-1] <= self.look_ahead:
                 raise CogmapError(f"reach: {name} ends before look_ahead; give {self.look_ahead + 1} columns or more")
-        for name in ("belief", "A", "B"):
-            table: Floats = getattr(self, name)
+        p = self.B.probability.transpose(2, 0, 1) if isinstance(self.B, Transitions) else self.B
+        for name, table in (("belief", self.belief), ("A", self.A), ("B", p)):
             # a NaN fails every comparison, so these also refuse what is not finite
             if not (table.min() >= 0.0 and abs(table.sum(0) - 1.0).max() <= 1e-6):
                 raise CogmapError(f"reach: {name} is no probability; its columns must sum to one")
@@ -129,3 +131,11 @@ class Reach:
                 raise CogmapError(
                     f"reach: {name} has shape {found}; {R} places, {K} actions, {O} outcomes ask for {shape}"
                 )
+        if isinstance(self.B, Transitions):
+            self._check_successors(self.B)
+
+    def _check_successors(self, B: Transitions) -> None:
+        if B.successors.ndim != 3 or B.successors.shape != B.probability.shape:
+            raise CogmapError("reach: B has successors and probability of different shapes; give [R, K, n] of both")
+        if B.successors.min() < 0 or B.successors.max() >= len(self.belief):
+            raise CogmapError("reach: B leads out of reach; its successors must be places counted from 0")

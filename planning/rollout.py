@@ -11,10 +11,12 @@ from ..model.errors import CogmapError
 from .information import collected_information
 from .policies.base import Policies
 from .reach import Reach
+from .transitions import Transitions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 CHUNK = 2_000_000  # numbers in the largest array; more policies are evaluated in parts
+FEW = 128  # places up to which a dense product is quicker than going through the successors
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +101,7 @@ class _Tables:
     """The tables of `Reach` laid out for the rollout."""
 
     belief: Floats  # [R]
-    B: Floats  # [K, R, R], B[a, s, s']
+    B: Floats | Transitions  # [K, R, R], B[a, s, s'], or where the places are many their successors
     A: Floats  # [R, O]
     ambiguity: Floats  # [R] H[A[:, s]], without the multiplicity, which cancels in the state information
     utility: Floats  # [R] expected log preference
@@ -113,7 +115,7 @@ class _Tables:
         A = np.ascontiguousarray(reach.A.T)
         return cls(
             belief=reach.belief,
-            B=np.ascontiguousarray(reach.B.transpose(2, 1, 0)),
+            B=_laid_out(reach.B),
             A=A,
             ambiguity=_entropy(A),
             utility=reach.utility,
@@ -122,6 +124,12 @@ class _Tables:
             discount=reach.discount,
             stay=reach.motions.stay,
         )
+
+
+def _laid_out(B: Floats | Transitions) -> Floats | Transitions:
+    if not isinstance(B, Transitions):
+        return np.ascontiguousarray(B.transpose(2, 1, 0))
+    return B.by_action if len(B.successors) <= FEW else B
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +144,7 @@ class _Level:
 
 def _evaluate(tables: _Tables, actions: Ints) -> Floats:
     """`[6, P]` the terms of each policy."""
-    kinds, places = tables.B.shape[:2]
+    kinds, places = tables.risk.shape
     nothing = np.zeros((1, places))
     level = _Level(tables.belief[None], nothing, nothing, np.zeros((3, 1)))
     node = np.zeros(len(actions), dtype=np.int64)
@@ -159,11 +167,14 @@ def _descend(tables: _Tables, level: _Level, parent: Ints, action: Ints) -> tupl
     """The next level of the tree, and `[6, n]` what the step to each of its nodes adds to the terms."""
     before = level.belief[parent]
     belief = np.empty_like(before)
-    bounds = np.searchsorted(action, np.arange(len(tables.B) + 1)).tolist()
-    for a, B in enumerate(tables.B):
+    bounds = np.searchsorted(action, np.arange(len(tables.risk) + 1)).tolist()
+    for a in range(len(tables.risk)):
         if bounds[a] < bounds[a + 1]:
             here = slice(bounds[a], bounds[a + 1])
-            np.matmul(before[here], B, out=belief[here])
+            if isinstance(tables.B, Transitions):
+                belief[here] = tables.B.predicted(before[here], a)
+            else:
+                np.matmul(before[here], tables.B[a], out=belief[here])
     visits = level.visits[parent] + belief
     reached = np.maximum(level.reached[parent], belief)
     learned = collected_information(tables.information, visits, reached)
