@@ -70,7 +70,7 @@ def cut_reach(
     Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
     nearest places that are.
     """
-    within, steps = surroundings(
+    within = surroundings(
         map_,
         places,
         look_ahead,
@@ -85,11 +85,11 @@ def cut_reach(
     log_C_place = preferences.log_C_place(local)
     keys, alpha = successors(map_, within)
     after, p = _sensed(within, keys, alpha, at, open_)
-    sights = _sight_information(map_, within, steps)
-    transition_information = np.zeros((len(local), steps + 1))
-    transition_information[:-1] = (_information(alpha, steps) * _untold(map_, within, keys)[..., None]).sum(axis=1)
-    position_information = np.zeros((len(local), steps + 1))
-    position_information[:-1] = _information(map_.A_p.concentration(within)[1], steps)
+    sights = _sight_information(map_, within, look_ahead)
+    transition_information = np.zeros((len(local), look_ahead + 1))
+    transition_information[:-1] = (_information(alpha, look_ahead) * _untold(map_, within, keys)[..., None]).sum(axis=1)
+    position_information = np.zeros((len(local), look_ahead + 1))
+    position_information[:-1] = _information(map_.A_p.concentration(within)[1], look_ahead)
     return Reach(
         motions=map_.motions,
         look_ahead=look_ahead,

@@ -37,7 +37,7 @@ class Reach:
         collision: `[R, K]` P(blocked | s, a); zero for `stay`.
         collision_cost: -log P(c = 1) of the preferred outcomes, in nats.
         sight_information: `[R, N + 1]` what `n` sights of a place teach about its column of A_o, in
-            nats; column 0 is zero; `N` is at least the length of the longest policy.
+            nats; column 0 is zero; `N` is at least `look_ahead`, and more than `N` teach what `N` do.
         position_information: `[R, N + 1]` the same for A_p.
         transition_information: `[R, N + 1]` the same for B_s: what looking at the doors of a place `n` times
             teaches about `B[:, s, a]`, summed over the actions.

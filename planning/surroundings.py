@@ -18,17 +18,16 @@ Promising = Callable[[Ints], NDArray[np.bool_]]
 
 def surroundings(
     map_: CognitiveMap, places: Ints, look_ahead: int, promising: Promising, *, hopeful: bool = True
-) -> tuple[Ints, int]:
-    """Places that a plan takes in, ascending, and the steps to the furthest that a policy may go to.
+) -> Ints:
+    """Places that a plan takes in, ascending.
 
     These are all within `look_ahead` steps of `places`; where none of them promises anything, also the shortest known
     ways to the nearest that do, if there may be any (`hopeful`). Costs what it touches, whatever the size of the map.
     """
     near = _ball(map_, places, look_ahead)
     if not hopeful or promising(near).any():
-        return near, look_ahead
-    ways, steps = _ways(map_, places, promising)
-    return np.union1d(near, ways), max(steps, look_ahead)
+        return near
+    return np.union1d(near, _ways(map_, places, promising))
 
 
 def successors(map_: CognitiveMap, places: Ints) -> tuple[Ints, Floats]:
@@ -52,17 +51,16 @@ def _ball(map_: CognitiveMap, places: Ints, look_ahead: int) -> Ints:
     return np.array(sorted(known), dtype=np.int64)
 
 
-def _ways(map_: CognitiveMap, places: Ints, promising: Promising) -> tuple[Ints, int]:
-    """The places on the shortest likely ways to the nearest promising places, and the steps to these."""
+def _ways(map_: CognitiveMap, places: Ints, promising: Promising) -> Ints:
+    """The places on the shortest likely ways to the nearest promising places."""
     parent: dict[int, int] = {place: place for place in places.tolist()}
-    frontier, steps = list(parent), 0
+    frontier = list(parent)
     while frontier:
         found = np.flatnonzero(promising(np.array(frontier)))[:FAR].tolist()
         if found:
-            return _traced(parent, [frontier[i] for i in found]), steps
+            return _traced(parent, [frontier[i] for i in found])
         frontier = _next(map_, frontier, parent)
-        steps += 1
-    return places[:0], 0
+    return places[:0]
 
 
 def _next(map_: CognitiveMap, frontier: list[int], parent: dict[int, int]) -> list[int]:

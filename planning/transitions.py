@@ -63,6 +63,22 @@ class Transitions:
         after = np.bincount(at.ravel(), weights=mass.ravel(), minlength=many * size)
         return after.astype(np.float64, copy=False).reshape(many, size)
 
+    def settled(self, action: int) -> bool:
+        """Whether the action certainly leaves every place as it is."""
+        here = np.arange(len(self.successors))[:, None]
+        elsewhere = (self.successors[:, action] != here) & (self.probability[:, action] > 0.0)
+        return not elsewhere.any()
+
+    def reachable(self, places: Ints, steps: int) -> Ints:
+        """The places, ascending, that so many steps may lead to."""
+        known = np.zeros(len(self.successors), dtype=np.bool_)
+        known[places] = True
+        for _ in range(steps):
+            reached = self.successors[places][self.probability[places] > 0.0]
+            places = np.unique(reached[~known[reached]])
+            known[places] = True
+        return np.flatnonzero(known)
+
     def within(self, places: Ints) -> Transitions:
         """The same over some of the places, ascending; what leads to others stays where it is."""
         local = np.zeros(len(self.successors), dtype=np.int64)

@@ -53,6 +53,22 @@ def test_successors_give_what_the_dense_table_gives(seed: int, places: int, slot
     assert reach.B.shape == np.asarray(B).shape
 
 
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6), st.integers(2, 8), st.booleans())
+def test_policies_that_stay_for_long_beside_one_that_moves_for_long(seed: int, places: int, far: bool) -> None:
+    rng = np.random.default_rng(seed)
+    B = Transitions(rng.integers(0, places, (places, 5, 2)), rng.dirichlet([0.4, 0.4], (places, 5)))
+    B.successors[:, GRID.stay] = np.arange(places)[:, None]
+    belief = np.where(np.arange(places) < 2, 0.5, 0.0)
+    reach = replace(random_reach(seed, places=places, look_ahead=2), B=B, belief=belief)
+    actions = np.full((6, 40), GRID.stay)
+    actions[1:, :2] = rng.integers(0, 5, (5, 2))
+    if far:
+        actions[-1, :30] = rng.integers(0, 4, 30)
+    policies = Policies(actions)
+    assert_same(evaluate(reach, policies), evaluate_plain(reach, policies))
+
+
 def test_equals_the_plain_evaluation_beyond_the_tables() -> None:
     reach = random_reach(3)
     rng = np.random.default_rng(3)
