@@ -16,6 +16,9 @@ from .reach import Floats, Ints, Reach
 from .surroundings import successors, surroundings
 from .transitions import Transitions, likeliest
 
+MOST = 32
+"""Places that the agent may be at from which a plan sets out, at most; belief in others is dropped, and counted."""
+
 PROMISING = 0.1
 """Nats that a first visit must be worth for a place to be a goal of long ways."""
 
@@ -68,8 +71,9 @@ def cut_reach(
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
     Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
-    nearest places that are.
+    nearest places that are. Of a belief over more than `MOST` places the likeliest remain (see `Reach.dropped`).
     """
+    places, belief, dropped = _likeliest_starts(places, belief)
     within = surroundings(
         map_,
         places,
@@ -111,7 +115,19 @@ def cut_reach(
         + np.maximum(log_C_place, 0.0),
         discount=discount,
         information_weight=information_weight,
+        dropped=dropped,
     )
+
+
+def _likeliest_starts(places: Ints, belief: Floats) -> tuple[Ints, Floats, float]:
+    """The `MOST` likeliest places, ascending, their share of the belief, and the belief in the others."""
+    if len(places) <= MOST:
+        return places, belief, 0.0
+    # of equals, some from everywhere: places with near numbers are near each other, and look alike
+    order = np.lexsort((np.arange(len(places)) * 0.6180339887498949 % 1.0, -belief))
+    kept = np.sort(order[:MOST])
+    mass = float(belief[kept].sum())
+    return places[kept], belief[kept] / mass, max(float(belief.sum()) - mass, 0.0)
 
 
 def _promising(map_: CognitiveMap, preferences: Preferences, places: Ints) -> NDArray[np.bool_]:

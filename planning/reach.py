@@ -46,6 +46,7 @@ class Reach:
         promise: `[R]` what a first visit is worth, in nats (for generators that look for goals).
         discount: weight of each step of a policy relative to the one before, above 0, at most 1.
         information_weight: weight of every information gain beside utility and collision, 0 or more.
+        dropped: belief in places that were left out, before `belief` was made to sum to one again.
     """
 
     motions: Motions
@@ -66,6 +67,7 @@ class Reach:
     promise: Floats
     discount: float = 1.0
     information_weight: float = 1.0
+    dropped: float = 0.0
 
     @property
     def utility(self) -> Floats:
@@ -103,6 +105,8 @@ class Reach:
             raise CogmapError(
                 f"reach: information_weight is {self.information_weight}; give a finite number, 0 or more"
             )
+        if not 0.0 <= self.dropped < 1.0:
+            raise CogmapError(f"reach: dropped is {self.dropped}; give a probability below 1")
         if not self.multiplicity.min() >= 1.0:
             raise CogmapError("reach: multiplicity is below one; each row of A stands for one sight or more")
         if self.successor.min() < -1 or self.successor.max() >= len(self.belief):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from cogmap.model.cognitive_map import CognitiveMap
 from cogmap.model.errors import CogmapError
-from cogmap.planning import Reach, map_guided, plan
+from cogmap.planning import Reach, horizon, map_guided, plan
 from cogmap.planning.horizon import Preferences, cut_reach
 from cogmap.planning.transitions import Transitions, likeliest
 from reaches import LINE, random_reach
@@ -87,6 +87,28 @@ def test_doors_are_as_sensed_where_the_agent_may_be() -> None:
 
 def test_the_cost_of_a_plan_is_that_of_the_neighbourhood() -> None:
     assert reach_of(corridor(4000), 2000).B.shape == reach_of(corridor(40), 20).B.shape
+
+
+@pytest.mark.parametrize("many", [horizon.MOST, horizon.MOST + 60])
+def test_a_plan_of_a_lost_agent_sets_out_from_the_likeliest_places_and_counts_the_others(many: int) -> None:
+    map_, places = corridor(400), np.arange(many) * 4
+    belief = np.linspace(1.0, 2.0, many) / np.linspace(1.0, 2.0, many).sum()
+    reach = cut_reach(map_, places, belief, open_=OPEN, look_ahead=3, preferences=Preferences())
+    kept = belief[-horizon.MOST :]
+    reach.check()
+    assert reach.dropped == pytest.approx(1.0 - kept.sum())
+    assert plan(reach, rng=np.random.default_rng(0)).dropped == reach.dropped
+    at = np.searchsorted(reach.places[:-1], places[-horizon.MOST :])
+    np.testing.assert_allclose(reach.belief[at], kept / kept.sum())
+    assert np.count_nonzero(reach.belief) == horizon.MOST
+
+
+def test_of_places_equally_likely_those_kept_are_from_everywhere() -> None:
+    places = np.arange(320)
+    reach = cut_reach(corridor(320), places, np.full(320, 1 / 320), open_=OPEN, look_ahead=1, preferences=Preferences())
+    kept = reach.places[reach.belief > 0.0]
+    assert np.diff(kept).max() < 30
+    assert reach.dropped == pytest.approx(0.9)
 
 
 def test_likeliest_is_the_greatest_of_the_dense_table() -> None:
