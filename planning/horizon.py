@@ -39,9 +39,10 @@ class Preferences:
     collision_cost: float = 1.0
 
     @property
-    def any(self) -> bool:
-        """Whether anything is hoped for."""
-        return any(value > 0.0 for value in (*self.sights.values(), *self.places.values()))
+    def known(self) -> bool:
+        """Whether anything is hoped for that the map may have already."""
+        sights = (value for key, value in self.sights.items() if key >= 0)
+        return any(value > 0.0 for value in (*sights, *self.places.values()))
 
     def log_C(self, outcomes: int) -> tuple[Ints, Floats, float]:
         """Preferred outcomes, their log C, and that of each of the others, of `outcomes` in all."""
@@ -79,7 +80,7 @@ def cut_reach(
         places,
         look_ahead,
         partial(_promising, map_, preferences),
-        hopeful=preferences.any or len(map_.visited_places) < len(map_.places),
+        hopeful=preferences.known or len(map_.visited_places) < len(map_.places),
     )
     local = np.append(within, ELSEWHERE)
     at = np.searchsorted(within, places)

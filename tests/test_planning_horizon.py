@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from cogmap.model.cognitive_map import CognitiveMap
 from cogmap.model.errors import CogmapError
-from cogmap.planning import Reach, horizon, map_guided, plan
+from cogmap.planning import Reach, Transitions, horizon, map_guided, plan
 from cogmap.planning.horizon import Preferences, cut_reach
-from cogmap.planning.transitions import Transitions, likeliest
+from cogmap.planning.transitions import likeliest
 from reaches import LINE, random_reach
 
 BACK, ON, STAY = 0, 1, 2
@@ -57,6 +57,13 @@ def test_only_the_way_to_the_nearest_promising_place_goes_beyond_look_ahead(pref
     reach.check()
     chosen = plan(reach, rng=np.random.default_rng(0))
     assert chosen.names == ["on"] * 10
+
+
+def test_a_sight_never_met_is_no_reason_to_search_a_map_that_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+    monkeypatch.setattr(horizon, "_promising", lambda *given: asked.append(1))
+    assert rooms_of(reach_of(corridor(50), 20, Preferences(sights={-1: 5.0}))) == list(range(17, 24))
+    assert not asked
 
 
 def test_what_is_near_is_taken_before_what_is_far() -> None:

@@ -7,8 +7,16 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 from cogmap.model.errors import CogmapError
-from cogmap.planning import GENERATORS, ExpectedFreeEnergy, Policies, evaluate, evaluate_plain, map_guided, rollout
-from cogmap.planning.transitions import Transitions
+from cogmap.planning import (
+    GENERATORS,
+    ExpectedFreeEnergy,
+    Policies,
+    Transitions,
+    evaluate,
+    evaluate_plain,
+    map_guided,
+    rollout,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reaches import GRID, LINE, grid_reach, random_reach
