@@ -6,6 +6,7 @@ from .policies import GENERATORS, Policies, exhaustive, l_shaped, map_guided, se
 from .reach import Reach
 from .reference import evaluate_plain
 from .rollout import ExpectedFreeEnergy, evaluate
+from .transitions import Transitions
 
 __all__ = [
     "CHOICES",
@@ -14,6 +15,7 @@ __all__ = [
     "Plan",
     "Policies",
     "Reach",
+    "Transitions",
     "choose",
     "collected_information",
     "dirichlet_information",

@@ -58,6 +58,11 @@ class Plan:
         return self.reach.places
 
     @property
+    def dropped(self) -> float:
+        """Belief in places that the plan left out: an agent that may be anywhere plans from the likeliest ones."""
+        return self.reach.dropped
+
+    @property
     def action_probability(self) -> Floats:
         """`[K]` P(first action), the sum over the policies that begin with it."""
         first = self.policies[:, 0, None] == np.arange(len(self.reach.motions))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,11 @@ from ..model.cognitive_map import ELSEWHERE, CognitiveMap
 from ..model.dirichlet import EMPTY
 from .information import dirichlet_information
 from .reach import Floats, Ints, Reach
+from .surroundings import successors, surroundings
+from .transitions import Transitions, likeliest
+
+MOST = 32
+"""Places that the agent may be at from which a plan sets out, at most; belief in others is dropped, and counted."""
 
 PROMISING = 0.1
 """Nats that a first visit must be worth for a place to be a goal of long ways."""
@@ -32,6 +37,12 @@ class Preferences:
     sights: Mapping[int, float] = field(default_factory=dict[int, float])
     places: Mapping[int, float] = field(default_factory=dict[int, float])
     collision_cost: float = 1.0
+
+    @property
+    def known(self) -> bool:
+        """Whether anything is hoped for that the map may have already."""
+        sights = (value for key, value in self.sights.items() if key >= 0)
+        return any(value > 0.0 for value in (*sights, *self.places.values()))
 
     def log_C(self, outcomes: int) -> tuple[Ints, Floats, float]:
         """Preferred outcomes, their log C, and that of each of the others, of `outcomes` in all."""
@@ -61,26 +72,29 @@ def cut_reach(
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
     Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
-    nearest places that are.
+    nearest places that are. Of a belief over more than `MOST` places the likeliest remain (see `Reach.dropped`).
     """
-    within, steps = _ball(map_, places, look_ahead, preferences)
+    places, belief, dropped = _likeliest_starts(places, belief)
+    within = surroundings(
+        map_,
+        places,
+        look_ahead,
+        partial(_promising, map_, preferences),
+        hopeful=preferences.known or len(map_.visited_places) < len(map_.places),
+    )
     local = np.append(within, ELSEWHERE)
+    at = np.searchsorted(within, places)
     q = np.zeros(len(local))
-    q[np.searchsorted(within, places)] = belief
+    q[at] = belief
     A, multiplicity, log_C = _sights(map_, within, preferences)
     log_C_place = preferences.log_C_place(local)
-    keys, alpha = _transitions(map_, within)
-    B = _local_B(within, keys, alpha)
-    _sense(B, np.searchsorted(within, places), open_)
-    sights = _sight_information(map_, within, steps)
-    here = np.arange(len(within))
-    collision = np.zeros((len(local), len(map_.motions)))
-    collision[:-1] = B[here, here, :]
-    collision[:, map_.motions.stay] = 0.0
-    transition_information = np.zeros((len(local), steps + 1))
-    transition_information[:-1] = (_information(alpha, steps) * _untold(map_, within, keys)[..., None]).sum(axis=1)
-    position_information = np.zeros((len(local), steps + 1))
-    position_information[:-1] = _information(map_.A_p.concentration(within)[1], steps)
+    keys, alpha = successors(map_, within)
+    after, p = _sensed(within, keys, alpha, at, open_)
+    sights = _sight_information(map_, within, look_ahead)
+    transition_information = np.zeros((len(local), look_ahead + 1))
+    transition_information[:-1] = (_information(alpha, look_ahead) * _untold(map_, within, keys)[..., None]).sum(axis=1)
+    position_information = np.zeros((len(local), look_ahead + 1))
+    position_information[:-1] = _information(map_.A_p.concentration(within)[1], look_ahead)
     return Reach(
         motions=map_.motions,
         look_ahead=look_ahead,
@@ -90,41 +104,34 @@ def cut_reach(
         multiplicity=multiplicity,
         log_C=log_C,
         log_C_place=log_C_place,
-        B=B,
-        collision=collision,
+        B=_local_B(within, after, p),
+        collision=_collision(within, after, p, map_.motions.stay),
         collision_cost=preferences.collision_cost,
         sight_information=sights,
         position_information=position_information,
         transition_information=transition_information,
-        successor=_successor(B, map_.motions.stay),
+        successor=_successor(within, after, p, map_.motions.stay),
         promise=information_weight * sights[:, 1]
         + np.maximum(log_C @ A - (log_C @ multiplicity) / multiplicity.sum(), 0.0)
         + np.maximum(log_C_place, 0.0),
         discount=discount,
         information_weight=information_weight,
+        dropped=dropped,
     )
 
 
-def _ball(map_: CognitiveMap, places: Ints, look_ahead: int, preferences: Preferences) -> tuple[Ints, int]:
-    """Places within reach, ascending, and the number of steps to the furthest that a policy may go to."""
-    actions = np.arange(len(map_.motions))
-    known = np.zeros(len(map_.places), dtype=np.bool_)
-    known[places] = True
-    frontier = np.flatnonzero(known)
-    found = bool(_promising(map_, frontier, preferences).any())
-    steps = 0
-    while len(frontier) and (steps < look_ahead or not found):
-        keys = map_.B_s.keys((frontier[:, None] * len(actions) + actions).ravel())
-        reached = known.copy()
-        reached[keys[keys >= 0]] = True
-        frontier = np.flatnonzero(reached != known)
-        known = reached
-        steps += 1
-        found = found or bool(_promising(map_, frontier, preferences).any())
-    return np.flatnonzero(known), max(steps, look_ahead)
+def _likeliest_starts(places: Ints, belief: Floats) -> tuple[Ints, Floats, float]:
+    """The `MOST` likeliest places, ascending, their share of the belief, and the belief in the others."""
+    if len(places) <= MOST:
+        return places, belief, 0.0
+    # of equals, some from everywhere: places with near numbers are near each other, and look alike
+    order = np.lexsort((np.arange(len(places)) * 0.6180339887498949 % 1.0, -belief))
+    kept = np.sort(order[:MOST])
+    mass = float(belief[kept].sum())
+    return places[kept], belief[kept] / mass, max(float(belief.sum()) - mass, 0.0)
 
 
-def _promising(map_: CognitiveMap, places: Ints, preferences: Preferences) -> NDArray[np.bool_]:
+def _promising(map_: CognitiveMap, preferences: Preferences, places: Ints) -> NDArray[np.bool_]:
     hoped = [key for key, value in preferences.sights.items() if value > 0.0 and key >= 0]
     promising = ~map_.visited[places] | (preferences.log_C_place(places) > 0.0)
     for key in hoped:
@@ -151,40 +158,48 @@ def _sights(map_: CognitiveMap, places: Ints, preferences: Preferences) -> tuple
     return (A, multiplicity, log_C) if rest else (A[:-1], multiplicity[:-1], log_C[:-1])
 
 
-def _transitions(map_: CognitiveMap, places: Ints) -> tuple[Ints, Floats]:
-    """Successors and concentrations, `[R, K, slots]`, of every action in every place."""
-    size = len(map_.motions)
-    keys, alpha, _ = map_.B_s.concentration((places[:, None] * size + np.arange(size)).ravel())
-    return keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
+def _sensed(places: Ints, keys: Ints, alpha: Floats, sensing: Ints, open_: Sequence[bool]) -> tuple[Ints, Floats]:
+    """Successors and probabilities, `[R, K, slots]`; the doors of `sensing` are as they are sensed now."""
+    keys, p = keys.copy(), alpha / alpha.sum(axis=2, keepdims=True)
+    for i in sensing.tolist():
+        for action, is_open in enumerate(open_):
+            after, mass = keys[i, action], p[i, action]
+            if not is_open:
+                after[0], mass[:], mass[0] = places[i], 0.0, 1.0
+                after[1:] = EMPTY
+            elif mass[after == places[i]].sum() < 1.0:
+                mass[after == places[i]] = 0.0
+                mass /= mass.sum()
+    return keys, p
 
 
-def _local_B(places: Ints, keys: Ints, alpha: Floats) -> Floats:
-    """B `[R, R, K]` over `places` and, last, everywhere else, which nothing leaves."""
-    size, actions, _ = keys.shape
-    p = alpha / alpha.sum(axis=2, keepdims=True)
+def _local(places: Ints, keys: Ints) -> Ints:
+    """Places of the map by their index in reach, `len(places)` for one never imagined.
+
+    One that is out of reach becomes the place that leads to it (the first axis): no policy is meant to go there.
+    """
+    size = len(places)
+    here = np.arange(size).reshape(-1, *(1,) * (keys.ndim - 1))
     at = np.searchsorted(places, keys)
     at[at == size] = 0
-    inside = (places[at] == keys) & (keys >= 0)
-    index = np.where(inside, at, size)
-    index[keys == EMPTY] = size
-    B = np.zeros((size + 1, size + 1, actions))
-    place, action, _ = np.indices(keys.shape)
-    np.add.at(B, (index, place, action), p)
-    B[size, size, :] = 1.0
-    return B
+    return np.where(places[at] == keys, at, np.where(keys == ELSEWHERE, size, here))
 
 
-def _sense(B: Floats, places: Ints, open_: Sequence[bool]) -> None:
-    """Let the doors that are sensed now be as they are sensed, wherever the agent may be."""
-    for place in places.tolist():
-        for action, is_open in enumerate(open_):
-            column = B[:, place, action]
-            if not is_open:
-                column[:] = 0.0
-                column[place] = 1.0
-            elif column[place] < 1.0:
-                column[place] = 0.0
-                column /= column.sum()
+def _local_B(places: Ints, keys: Ints, p: Floats) -> Transitions:
+    """B over `places` and, last, everywhere never imagined, which nothing leaves."""
+    size, actions, slots = keys.shape
+    successors = np.full((size + 1, actions, slots), size)
+    probability = np.zeros((size + 1, actions, slots))
+    successors[:size], probability[:size], probability[size, :, 0] = _local(places, keys), p, 1.0
+    return Transitions(successors, probability)
+
+
+def _collision(places: Ints, keys: Ints, p: Floats, stay: int) -> Floats:
+    """`[R + 1, K]` P(staying | s, a), zero for `stay` and in the last row."""
+    collision = np.zeros((len(places) + 1, keys.shape[1]))
+    collision[:-1] = (p * (keys == places[:, None, None])).sum(axis=2)
+    collision[:, stay] = 0.0
+    return collision
 
 
 def _untold(map_: CognitiveMap, places: Ints, keys: Ints) -> NDArray[np.bool_]:
@@ -192,21 +207,13 @@ def _untold(map_: CognitiveMap, places: Ints, keys: Ints) -> NDArray[np.bool_]:
     return ~(map_.visited[places][:, None] & (keys == ELSEWHERE).any(axis=2))
 
 
-def _successor(B: Floats, stay: int) -> Ints:
-    """The most probable place besides the place itself, where it is at least as probable as staying."""
-    size = len(B) - 1
-    others = B[:size].copy()
-    here = np.arange(size)
-    others[here, here, :] = 0.0
-    best = others.argmax(axis=0)
-    p = others.max(axis=0)
-    blocked = np.zeros_like(p)
-    blocked[:size] = B[here, here, :]
-    elsewhere = B[size]
-    successor = np.where((p > 0.0) & (p >= blocked) & (p >= elsewhere), best, -1)
-    successor[:size, stay] = here
-    successor[size] = -1
-    return successor.astype(np.int64)
+def _successor(places: Ints, keys: Ints, p: Floats, stay: int) -> Ints:
+    """`[R + 1, K]` the likeliest place besides the place itself; the place itself where that is out of reach."""
+    successor = np.full((len(places) + 1, keys.shape[1]), -1)
+    likely = likeliest(keys, p, places, ELSEWHERE)
+    successor[:-1] = np.where(likely >= 0, _local(places, likely), -1)
+    successor[:-1, stay] = np.arange(len(places))
+    return successor
 
 
 def _sight_information(map_: CognitiveMap, places: Ints, steps: int) -> Floats:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
 from ..model.motions import Motions
+from .transitions import Transitions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -31,11 +32,12 @@ class Reach:
         multiplicity: `[O]` sights that each row stands for.
         log_C: `[O]` log preference of each of the sights in the row, in nats (its weight included).
         log_C_place: `[R]` log preference of being in each place, in nats; zero where none is given.
-        B: `[R, R, K]` P(s' | s, a); `B[:, s, a]` sums to one.
+        B: `[R, R, K]` P(s' | s, a); `B[:, s, a]` sums to one. An array, or `Transitions`, which holds the successors
+            alone.
         collision: `[R, K]` P(blocked | s, a); zero for `stay`.
         collision_cost: -log P(c = 1) of the preferred outcomes, in nats.
         sight_information: `[R, N + 1]` what `n` sights of a place teach about its column of A_o, in
-            nats; column 0 is zero; `N` is at least the length of the longest policy.
+            nats; column 0 is zero; `N` is at least `look_ahead`, and more than `N` teach what `N` do.
         position_information: `[R, N + 1]` the same for A_p.
         transition_information: `[R, N + 1]` the same for B_s: what looking at the doors of a place `n` times
             teaches about `B[:, s, a]`, summed over the actions.
@@ -44,6 +46,7 @@ class Reach:
         promise: `[R]` what a first visit is worth, in nats (for generators that look for goals).
         discount: weight of each step of a policy relative to the one before, above 0, at most 1.
         information_weight: weight of every information gain beside utility and collision, 0 or more.
+        dropped: belief in places that were left out, before `belief` was made to sum to one again.
     """
 
     motions: Motions
@@ -54,7 +57,7 @@ class Reach:
     multiplicity: Floats
     log_C: Floats
     log_C_place: Floats
-    B: Floats
+    B: Floats | Transitions
     collision: Floats
     collision_cost: float
     sight_information: Floats
@@ -64,6 +67,7 @@ class Reach:
     promise: Floats
     discount: float = 1.0
     information_weight: float = 1.0
+    dropped: float = 0.0
 
     @property
     def utility(self) -> Floats:
@@ -83,8 +87,8 @@ class Reach:
         for name in ("sight_information", "position_information", "transition_information"):
             if getattr(self, name).shape[-1] <= self.look_ahead:
                 raise CogmapError(f"reach: {name} ends before look_ahead; give {self.look_ahead + 1} columns or more")
-        for name in ("belief", "A", "B"):
-            table: Floats = getattr(self, name)
+        p = self.B.probability.transpose(2, 0, 1) if isinstance(self.B, Transitions) else self.B
+        for name, table in (("belief", self.belief), ("A", self.A), ("B", p)):
             # a NaN fails every comparison, so these also refuse what is not finite
             if not (table.min() >= 0.0 and abs(table.sum(0) - 1.0).max() <= 1e-6):
                 raise CogmapError(f"reach: {name} is no probability; its columns must sum to one")
@@ -101,6 +105,8 @@ class Reach:
             raise CogmapError(
                 f"reach: information_weight is {self.information_weight}; give a finite number, 0 or more"
             )
+        if not 0.0 <= self.dropped < 1.0:
+            raise CogmapError(f"reach: dropped is {self.dropped}; give a probability below 1")
         if not self.multiplicity.min() >= 1.0:
             raise CogmapError("reach: multiplicity is below one; each row of A stands for one sight or more")
         if self.successor.min() < -1 or self.successor.max() >= len(self.belief):
@@ -129,3 +135,11 @@ class Reach:
                 raise CogmapError(
                     f"reach: {name} has shape {found}; {R} places, {K} actions, {O} outcomes ask for {shape}"
                 )
+        if isinstance(self.B, Transitions):
+            self._check_successors(self.B)
+
+    def _check_successors(self, B: Transitions) -> None:
+        if B.successors.ndim != 3 or B.successors.shape != B.probability.shape:
+            raise CogmapError("reach: B has successors and probability of different shapes; give [R, K, n] of both")
+        if B.successors.min() < 0 or B.successors.max() >= len(self.belief):
+            raise CogmapError("reach: B leads out of reach; its successors must be places counted from 0")

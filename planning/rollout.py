@@ -11,10 +11,13 @@ from ..model.errors import CogmapError
 from .information import collected_information
 from .policies.base import Policies
 from .reach import Reach
+from .staying import geometric, staying_teaches
+from .transitions import Transitions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 CHUNK = 2_000_000  # numbers in the largest array; more policies are evaluated in parts
+FEW = 128  # places up to which a dense product is quicker than going through the successors
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,12 +89,31 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
     actions = policies.actions
     if actions.min() < 0 or actions.max() >= len(reach.motions):
         raise CogmapError(f"evaluate: actions must be 0..{len(reach.motions) - 1}; one policy has another")
-    tables = _Tables.of(reach)
-    size = max(1, CHUNK // (tables.risk.size or 1))
-    parts = [_evaluate(tables, actions[i : i + size]) for i in range(0, len(actions), size)]
-    terms = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+    terms = np.empty((6, len(actions)))
+    for rows, columns in _groups(reach, actions):
+        terms[:, rows] = _in_parts(_Tables.of(reach, columns), actions[rows])
     terms[:4] *= reach.information_weight
     return ExpectedFreeEnergy(*terms)
+
+
+def _groups(reach: Reach, actions: Ints) -> list[tuple[Ints, Ints]]:
+    """Policies that see the same places, and these: most move for a few steps only, where one may move for hundreds."""
+    all_ = np.arange(len(actions)), np.arange(len(reach.belief))
+    if actions.shape[1] <= reach.look_ahead or not isinstance(reach.B, Transitions):
+        return [all_]
+    far = (actions[:, reach.look_ahead :] != reach.motions.stay).any(axis=1)
+    if far.all():
+        return [all_]
+    near = reach.B.reachable(np.flatnonzero(reach.belief), reach.look_ahead)
+    groups = [(np.flatnonzero(~far), near), (np.flatnonzero(far), all_[1])]
+    return groups[: 1 + bool(far.any())]
+
+
+def _in_parts(tables: _Tables, actions: Ints) -> Floats:
+    """`[6, P]` the terms of each policy."""
+    size = max(1, CHUNK // (tables.risk.size or 1))
+    parts = [_evaluate(tables, actions[i : i + size]) for i in range(0, len(actions), size)]
+    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +121,7 @@ class _Tables:
     """The tables of `Reach` laid out for the rollout."""
 
     belief: Floats  # [R]
-    B: Floats  # [K, R, R], B[a, s, s']
+    B: Floats | Transitions  # [K, R, R], B[a, s, s'], or where the places are many their successors
     A: Floats  # [R, O]
     ambiguity: Floats  # [R] H[A[:, s]], without the multiplicity, which cancels in the state information
     utility: Floats  # [R] expected log preference
@@ -107,21 +129,34 @@ class _Tables:
     information: tuple[Floats, ...]  # of A_o, A_p, B_s, each [R, N + 1]
     discount: float
     stay: int
+    settled: bool  # whether it is known that to stay leaves every belief as it is
 
     @classmethod
-    def of(cls, reach: Reach) -> _Tables:
-        A = np.ascontiguousarray(reach.A.T)
+    def of(cls, reach: Reach, columns: Ints) -> _Tables:
+        """Of some of the places, ascending."""
+        every = len(columns) == len(reach.belief)
+        at = slice(None) if every else columns
+        B = reach.B.within(columns) if isinstance(reach.B, Transitions) and not every else reach.B
+        A = np.ascontiguousarray(reach.A.T[at])
+        information = (reach.sight_information, reach.position_information, reach.transition_information)
         return cls(
-            belief=reach.belief,
-            B=np.ascontiguousarray(reach.B.transpose(2, 1, 0)),
+            belief=reach.belief[at],
+            B=_laid_out(B),
             A=A,
             ambiguity=_entropy(A),
-            utility=reach.utility,
-            risk=np.ascontiguousarray(reach.collision_cost * reach.collision.T),
-            information=(reach.sight_information, reach.position_information, reach.transition_information),
+            utility=reach.utility[at],
+            risk=np.ascontiguousarray(reach.collision_cost * reach.collision[at].T),
+            information=tuple(table[at] for table in information),
             discount=reach.discount,
             stay=reach.motions.stay,
+            settled=isinstance(B, Transitions) and B.settled(reach.motions.stay),
         )
+
+
+def _laid_out(B: Floats | Transitions) -> Floats | Transitions:
+    if not isinstance(B, Transitions):
+        return np.ascontiguousarray(B.transpose(2, 1, 0))
+    return B.by_action if len(B.successors) <= FEW else B
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,13 +171,15 @@ class _Level:
 
 def _evaluate(tables: _Tables, actions: Ints) -> Floats:
     """`[6, P]` the terms of each policy."""
-    kinds, places = tables.B.shape[:2]
+    kinds, places = tables.risk.shape
     nothing = np.zeros((1, places))
     level = _Level(tables.belief[None], nothing, nothing, np.zeros((3, 1)))
     node = np.zeros(len(actions), dtype=np.int64)
     total = np.zeros((6, len(actions)))
     weight = 1.0
-    for column in actions.T:
+    length = actions.shape[1]
+    moving = _moving(tables, actions) if tables.settled else length
+    for column in actions.T[:moving]:
         # children are numbered action by action, so that one product serves all children of an action
         child = column * len(level.belief) + node
         present = np.zeros(kinds * len(level.belief), dtype=np.bool_)
@@ -152,18 +189,42 @@ def _evaluate(tables: _Tables, actions: Ints) -> Floats:
         level, gains = _descend(tables, level, parent, action)
         total += weight * gains[:, node]
         weight *= tables.discount
+    if moving < length:
+        total += weight * _stay(tables, level, length - moving)[:, node]
     return total
+
+
+def _moving(tables: _Tables, actions: Ints) -> int:
+    """Steps until all policies stay to the end; all steps where summing over those that are left would not pay."""
+    length = actions.shape[1]
+    moves = np.flatnonzero((actions != tables.stay).any(axis=0))
+    moving = int(moves[-1]) + 1 if len(moves) else 1
+    return moving if length - moving > max(table.shape[1] for table in tables.information) else length
+
+
+def _stay(tables: _Tables, level: _Level, steps: int) -> Floats:
+    """`[6, n]` what so many steps that stay add to the terms, the first of them at weight one."""
+    gains = np.zeros((6, len(level.belief)))
+    seen = level.belief, level.visits, level.reached
+    gains[1:4] = staying_teaches(tables.information, *seen, steps=steps, discount=tables.discount)
+    weight = geometric(tables.discount, steps)
+    gains[4] = weight * (level.belief @ tables.utility)
+    gains[5] = weight * (level.belief @ tables.risk[tables.stay])
+    return gains
 
 
 def _descend(tables: _Tables, level: _Level, parent: Ints, action: Ints) -> tuple[_Level, Floats]:
     """The next level of the tree, and `[6, n]` what the step to each of its nodes adds to the terms."""
     before = level.belief[parent]
     belief = np.empty_like(before)
-    bounds = np.searchsorted(action, np.arange(len(tables.B) + 1)).tolist()
-    for a, B in enumerate(tables.B):
+    bounds = np.searchsorted(action, np.arange(len(tables.risk) + 1)).tolist()
+    for a in range(len(tables.risk)):
         if bounds[a] < bounds[a + 1]:
             here = slice(bounds[a], bounds[a + 1])
-            np.matmul(before[here], B, out=belief[here])
+            if isinstance(tables.B, Transitions):
+                belief[here] = tables.B.predicted(before[here], a)
+            else:
+                np.matmul(before[here], tables.B[a], out=belief[here])
     visits = level.visits[parent] + belief
     reached = np.maximum(level.reached[parent], belief)
     learned = collected_information(tables.information, visits, reached)

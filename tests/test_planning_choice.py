@@ -139,6 +139,7 @@ def test_unknown_names_list_the_choices() -> None:
         ("position_information", np.zeros((4, 9))),
         ("transition_information", np.zeros((5, 2))),
         ("discount", 0.0),
+        ("dropped", 1.0),
     ],
 )
 def test_plan_refuses_tables_that_do_not_fit(field: str, value: object) -> None:

@@ -7,7 +7,16 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 from cogmap.model.errors import CogmapError
-from cogmap.planning import GENERATORS, ExpectedFreeEnergy, Policies, evaluate, evaluate_plain, map_guided, rollout
+from cogmap.planning import (
+    GENERATORS,
+    ExpectedFreeEnergy,
+    Policies,
+    Transitions,
+    evaluate,
+    evaluate_plain,
+    map_guided,
+    rollout,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reaches import GRID, LINE, grid_reach, random_reach
@@ -33,6 +42,38 @@ def test_equals_the_plain_evaluation(seed: int, name: str, motions, places: int,
     look_ahead = 3 if motions is LINE else 2
     reach = random_reach(seed, motions=motions, places=places, look_ahead=look_ahead, sparse=sparse)
     policies = GENERATORS[name](reach)
+    assert_same(evaluate(reach, policies), evaluate_plain(reach, policies))
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6), st.integers(1, 6), st.integers(1, 3), st.sampled_from([0, 128]))
+def test_successors_give_what_the_dense_table_gives(seed: int, places: int, slots: int, few: int) -> None:
+    rng = np.random.default_rng(seed)
+    B = Transitions(rng.integers(0, places, (places, 5, slots)), rng.dirichlet(np.full(slots, 0.4), (places, 5)))
+    reach = replace(random_reach(seed, places=places, look_ahead=2), B=B)
+    reach.check()
+    policies = GENERATORS["self_avoiding"](reach)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(rollout, "FEW", few)
+        ours = evaluate(reach, policies)
+    assert_same(ours, evaluate_plain(reach, policies))
+    assert_same(ours, evaluate(replace(reach, B=np.asarray(B)), policies))
+    assert reach.B.shape == np.asarray(B).shape
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6), st.integers(2, 8), st.booleans())
+def test_policies_that_stay_for_long_beside_one_that_moves_for_long(seed: int, places: int, far: bool) -> None:
+    rng = np.random.default_rng(seed)
+    B = Transitions(rng.integers(0, places, (places, 5, 2)), rng.dirichlet([0.4, 0.4], (places, 5)))
+    B.successors[:, GRID.stay] = np.arange(places)[:, None]
+    belief = np.where(np.arange(places) < 2, 0.5, 0.0)
+    reach = replace(random_reach(seed, places=places, look_ahead=2), B=B, belief=belief)
+    actions = np.full((6, 40), GRID.stay)
+    actions[1:, :2] = rng.integers(0, 5, (5, 2))
+    if far:
+        actions[-1, :30] = rng.integers(0, 4, 30)
+    policies = Policies(actions)
     assert_same(evaluate(reach, policies), evaluate_plain(reach, policies))
 
 

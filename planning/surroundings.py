@@ -1,0 +1,88 @@
+"""Which places a plan takes in: those near by, and the ways to the nearest promising ones further off."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.cognitive_map import ELSEWHERE, CognitiveMap
+from .transitions import Floats, Ints, likeliest
+
+FAR = 8
+"""Promising places beyond the look-ahead that a plan takes in, at most."""
+
+Promising = Callable[[Ints], NDArray[np.bool_]]
+
+
+def surroundings(
+    map_: CognitiveMap, places: Ints, look_ahead: int, promising: Promising, *, hopeful: bool = True
+) -> Ints:
+    """Places that a plan takes in, ascending.
+
+    These are all within `look_ahead` steps of `places`; where none of them promises anything, also the shortest known
+    ways to the nearest that do, if there may be any (`hopeful`). Costs what it touches, whatever the size of the map.
+    """
+    near = _ball(map_, places, look_ahead)
+    if not hopeful or promising(near).any():
+        return near
+    return np.union1d(near, _ways(map_, places, promising))
+
+
+def successors(map_: CognitiveMap, places: Ints) -> tuple[Ints, Floats]:
+    """Successors and concentrations, `[n, K, slots]`, of every action in every place."""
+    size = len(map_.motions)
+    keys, alpha, _ = map_.B_s.concentration((places[:, None] * size + np.arange(size)).ravel())
+    return keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
+
+
+def _ball(map_: CognitiveMap, places: Ints, look_ahead: int) -> Ints:
+    """Places within `look_ahead` steps, however improbable, ascending."""
+    actions = np.arange(len(map_.motions))
+    known = set(places.tolist())
+    frontier = list(known)
+    for _ in range(look_ahead):
+        if not frontier:
+            break
+        rows = (np.array(frontier)[:, None] * len(actions) + actions).ravel()
+        frontier = [place for place in set(map_.B_s.keys(rows).ravel().tolist()) - known if place >= 0]
+        known.update(frontier)
+    return np.array(sorted(known), dtype=np.int64)
+
+
+def _ways(map_: CognitiveMap, places: Ints, promising: Promising) -> Ints:
+    """The places on the shortest likely ways to the nearest promising places."""
+    parent: dict[int, int] = {place: place for place in places.tolist()}
+    frontier = list(parent)
+    while frontier:
+        found = np.flatnonzero(promising(np.array(frontier)))[:FAR].tolist()
+        if found:
+            return _traced(parent, [frontier[i] for i in found])
+        frontier = _next(map_, frontier, parent)
+    return places[:0]
+
+
+def _next(map_: CognitiveMap, frontier: list[int], parent: dict[int, int]) -> list[int]:
+    """The places one likely step further, in the order in which they are met; enters their parents."""
+    places = np.array(frontier)
+    keys, alpha = successors(map_, places)
+    reached: list[int] = []
+    ways = likeliest(keys, alpha, places, ELSEWHERE).tolist()
+    for place, row in zip(frontier, ways, strict=True):
+        for after in row:
+            if after >= 0 and after not in parent:
+                parent[after] = place
+                reached.append(after)
+    return reached
+
+
+def _traced(parent: dict[int, int], ends: list[int]) -> Ints:
+    """All places on the ways to `ends`."""
+    ways: set[int] = set()
+    for end in ends:
+        at = end
+        while at not in ways:
+            ways.add(at)
+            at = parent[at]
+    return np.array(sorted(ways), dtype=np.int64)

@@ -1,0 +1,108 @@
+"""Where actions lead, held as the few successors that each place has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Transitions:
+    """P(s' | s, a) over `R` places, its few successors alone; it reads like the dense table `[R, R, K]`.
+
+    Attributes:
+        successors: `[R, K, n]` places that an action may lead to; one may be named more than once.
+        probability: `[R, K, n]` of each; sums to one over the last axis, zero where a slot is unused.
+    """
+
+    successors: Ints
+    probability: Floats
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Of the dense table: `(R, R, K)`."""
+        places, actions = self.successors.shape[:2]
+        return places, places, actions
+
+    @cached_property
+    def by_action(self) -> Floats:
+        """`[K, R, R]` the dense table as B[a, s, s']: R^2 numbers an action, for few places."""
+        size, actions, _ = self.successors.shape
+        row = np.arange(actions) * size + np.arange(size)[:, None]
+        at = row[..., None] * size + self.successors
+        dense = np.bincount(at.ravel(), weights=self.probability.ravel(), minlength=actions * size * size)
+        return dense.astype(np.float64, copy=False).reshape(actions, size, size)
+
+    @property
+    def dense(self) -> Floats:
+        """`[R, R, K]` the dense table as B[s', s, a]: R^2 numbers an action, for few places."""
+        return self.by_action.transpose(2, 1, 0)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self.dense, dtype=dtype)
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.dense[key]
+
+    def argmax(self, axis: int) -> Ints:
+        """Of the dense table."""
+        return self.dense.argmax(axis=axis).astype(np.int64)
+
+    def predicted(self, belief: Floats, action: int) -> Floats:
+        """`[n, R]` Q'(s') = sum_s B[s', s, a] Q(s) of beliefs `[n, R]`; touches the successors only."""
+        many, size = belief.shape
+        at = np.arange(many)[:, None, None] * size + self.successors[:, action]
+        mass = belief[:, :, None] * self.probability[:, action]
+        after = np.bincount(at.ravel(), weights=mass.ravel(), minlength=many * size)
+        return after.astype(np.float64, copy=False).reshape(many, size)
+
+    def settled(self, action: int) -> bool:
+        """Whether the action certainly leaves every place as it is."""
+        here = np.arange(len(self.successors))[:, None]
+        elsewhere = (self.successors[:, action] != here) & (self.probability[:, action] > 0.0)
+        return not elsewhere.any()
+
+    def reachable(self, places: Ints, steps: int) -> Ints:
+        """The places, ascending, that so many steps may lead to."""
+        known = np.zeros(len(self.successors), dtype=np.bool_)
+        known[places] = True
+        for _ in range(steps):
+            reached = self.successors[places][self.probability[places] > 0.0]
+            places = np.unique(reached[~known[reached]])
+            known[places] = True
+        return np.flatnonzero(known)
+
+    def within(self, places: Ints) -> Transitions:
+        """The same over some of the places, ascending; what leads to others stays where it is."""
+        local = np.zeros(len(self.successors), dtype=np.int64)
+        inside = np.zeros(len(self.successors), dtype=np.bool_)
+        local[places], inside[places] = np.arange(len(places)), True
+        successors = self.successors[places]
+        here = np.arange(len(places))[:, None, None]
+        return Transitions(np.where(inside[successors], local[successors], here), self.probability[places])
+
+
+def likeliest(successors: Ints, probability: Floats, places: Ints, nowhere: int) -> Ints:
+    """`[n, K]` where each action most probably leads besides the place itself; -1 where that is less probable than
+    staying or than `nowhere`. Of equals it is the one with the lowest number.
+
+    Args:
+        successors: `[n, K, slots]`.
+        probability: `[n, K, slots]`, zero where a slot is unused.
+        places: `[n]` the place that each row is of.
+        nowhere: the number that stands for a place never imagined.
+    """
+    own = successors == places[:, None, None]
+    lost = successors == nowhere
+    others = np.where(own | lost, 0.0, probability)
+    p = others.max(axis=2)
+    best = np.where(others == p[..., None], successors, np.iinfo(np.int64).max).min(axis=2)
+    likely = (p > 0.0) & (p >= (probability * own).sum(axis=2)) & (p >= (probability * lost).sum(axis=2))
+    return np.where(likely, best, -1)
