@@ -163,7 +163,7 @@ def test_ctrl_c_ends_the_workers_too() -> None:
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
     time.sleep(2.5)
     os.killpg(process.pid, signal.SIGINT)
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=90)
     assert process.returncode == 130
     assert errors == "cogmap: interrupted; nothing more was written\n"
 

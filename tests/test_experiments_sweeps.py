@@ -335,7 +335,7 @@ def test_an_end_from_outside_leaves_the_rows_and_no_process(tmp_path: Path, blow
         os.killpg(process.pid, blow)  # as Ctrl-C in a terminal does
     else:
         process.kill()
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=90)
     assert process.returncode == (130 if blow == signal.SIGINT else -signal.SIGKILL)
     assert "Traceback" not in errors
     assert len(pids) == 2
