@@ -52,8 +52,7 @@ def restore_map(
     map_.A_o.outcomes = len(map_.sights) + 1
     for name in ("A_o", "A_p", "B_s"):
         getattr(map_, name).restore({part: arrays[f"{name}.{part}"] for part in ("keys", "prior", "evidence")})
-    for name, column in map_.columns.items():
-        column.restore(arrays[f"map.{name}"])
+    map_.restore_columns({name: arrays[f"map.{name}"] for name in map_.columns})
     map_.growth.extend(_events(map_, arrays["growth"].tolist()))
 
 
