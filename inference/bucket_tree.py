@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,21 +17,25 @@ Scopes = Sequence[tuple[int, ...]]
 
 @dataclass(frozen=True, slots=True)
 class BucketTree:
-    """A calibrated tree of buckets, one a variable, in order of elimination.
+    """A tree of buckets, one a variable, in order of elimination; each is calibrated when it is asked for.
 
     Attributes:
         problem: the reduced problem.
         log_evidence: log Z.
         scopes: for each bucket its variables, the eliminated one first, then its separator by order.
-        beliefs: P(scope | evidence) for each bucket, one axis a variable.
+        tables: for each bucket, one axis a variable: proportional to P(x_i | S_i), and once it is calibrated
+            P(x_i, S_i | evidence) in its place.
+        messages: P(x_i | S_i) as it was in `tables`, summed over x_i.
         place: bucket of each variable.
     """
 
     problem: Problem
     log_evidence: float
     scopes: Scopes
-    beliefs: Sequence[FloatArray]
+    tables: list[FloatArray]
+    messages: Sequence[FloatArray]
     place: Mapping[int, int]
+    _calibrated: set[int] = field(default_factory=set[int], repr=False, compare=False)
 
     def joint(self, names: Sequence[str]) -> FloatArray:
         """P(names | evidence), one axis a name; eliminates the rest afresh where no bucket holds them all."""
@@ -41,43 +45,48 @@ class BucketTree:
         # the first of them to leave: its bucket holds them all, or none does
         at = min([self.place[i] for i in wanted])
         if set(wanted) <= set(self.scopes[at]):
-            joint = _marginal(self.beliefs[at], self.scopes[at], wanted)
+            joint = _marginal(self.belief(at), self.scopes[at], wanted)
         else:
             joint = _by_elimination(self.problem, wanted)
         return self.problem.expand(names, wanted, joint)
 
+    def belief(self, at: int) -> FloatArray:
+        """P(x_i, S_i) = P(S_i) product_i / message_i, from the last bucket on the way down to this one; 0 / 0 = 0."""
+        way = [at]
+        while way[-1] not in self._calibrated and len(self.scopes[way[-1]]) > 1:
+            way.append(self.place[self.scopes[way[-1]][1]])
+        for here in reversed(way):
+            if here not in self._calibrated:
+                self._calibrate(here)
+        return self.tables[at]
+
+    def _calibrate(self, at: int) -> None:
+        """Multiply by P(S_i) / message_i; the bucket that S_i is part of is calibrated already."""
+        scope, message = self.scopes[at], self.messages[at]
+        above = np.ones(())
+        if len(scope) > 1:
+            parent = self.place[scope[1]]
+            above = _marginal(self.tables[parent], self.scopes[parent], scope[1:])
+        ratio = np.divide(above, message, out=np.zeros(message.shape), where=message > 0)
+        self.tables[at] = self.tables[at] * ratio
+        self._calibrated.add(at)
+
     def entropy(self) -> float:
         """H = Σ_i H(x_i, S_i) - H(S_i), in nats."""
-        return sum(_entropy(belief) - _entropy(belief.sum(axis=0)) for belief in self.beliefs)
+        beliefs = [self.belief(at) for at in range(len(self.scopes))]
+        return sum(_entropy(belief) - _entropy(belief.sum(axis=0)) for belief in beliefs)
 
 
-def calibrated(
+def tree_of(
     problem: Problem,
     log_evidence: float,
     scopes: Scopes,
     products: Sequence[FloatArray],
     messages: Sequence[FloatArray],
 ) -> BucketTree:
-    """P(x_i, S_i) = P(S_i) product_i / message_i, from the last bucket to the first; 0 / 0 = 0.
-
-    Args:
-        problem: the reduced problem.
-        log_evidence: log Z.
-        scopes: of the buckets, in order of elimination.
-        products: proportional to P(x_i | S_i), axes as in the scope.
-        messages: the products summed over x_i.
-    """
+    """The tree of these buckets, in order of elimination; `products` are what its `tables` begin with."""
     place = {scope[0]: at for at, scope in enumerate(scopes)}
-    beliefs = list(products)
-    for at in reversed(range(len(scopes))):
-        scope, message = scopes[at], messages[at]
-        above = np.ones(())
-        if len(scope) > 1:
-            parent = place[scope[1]]
-            above = _marginal(beliefs[parent], scopes[parent], scope[1:])
-        ratio = np.divide(above, message, out=np.zeros(message.shape), where=message > 0)
-        beliefs[at] = products[at] * ratio
-    return BucketTree(problem, log_evidence, scopes, beliefs, place)
+    return BucketTree(problem, log_evidence, scopes, list(products), messages, place)
 
 
 def _by_elimination(problem: Problem, wanted: Sequence[int]) -> FloatArray:

@@ -1,4 +1,4 @@
-"""The numpy engine: exact sum-product and max-product by bucket elimination, two passes for all marginals.
+"""The numpy engine: exact sum-product and max-product by bucket elimination, a second pass for the marginals asked for.
 
 Eliminating x_i multiplies the tables that hold it and sums it out; the message over its separator S_i goes to
 the bucket of the next variable to leave. Each message is scaled to maximum 1 and the log of its scale is
@@ -11,14 +11,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..model.factors import FloatArray, IntArray
-from .bucket_tree import BucketTree, calibrated
+from .bucket_tree import BucketTree, tree_of
 from .buckets import LARGEST_CLUSTER, Buckets
 from .ordering import elimination
 from .problem import Problem
 
 
 def solve(problem: Problem, order: Sequence[str] | None) -> BucketTree:
-    """Both passes of sum-product.
+    """Sum-product: the forward pass; the backward one is for the tree, when it is asked.
 
     Raises:
         ImpossibleEvidence: Z = 0.
@@ -34,7 +34,7 @@ def solve(problem: Problem, order: Sequence[str] | None) -> BucketTree:
         buckets.send(position, message)
         products.append(product)
         messages.append(message)
-    return calibrated(problem, buckets.log_scale, buckets.scopes, products, messages)
+    return tree_of(problem, buckets.log_scale, buckets.scopes, products, messages)
 
 
 def maximise(problem: Problem, order: Sequence[str] | None) -> list[int]:

@@ -17,6 +17,12 @@ from ..model.cognitive_map import CognitiveMap
 from ..model.slices import found_shut
 from .message import Belief, Evidence, FilterOptions, Message
 
+FAINT = 1e-8
+"""Odds beside the most probable place from which on another one may matter later (see `rivals`)."""
+
+FEW = 50
+"""Visited places that are looked at one and all."""
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -25,7 +31,8 @@ Ints = NDArray[np.int64]
 class _Candidates:
     """Weighted pairs `[m]` before the evidence of this step.
 
-    `source` indexes the message they come from; `told` is what the evidence has to be multiplied by (see `found_shut`).
+    `source` indexes the message they come from; `told` is what the evidence has to be multiplied by (see `found_shut`);
+    `like` is P(o, c | s).
     """
 
     places: Ints
@@ -33,23 +40,30 @@ class _Candidates:
     weight: Floats
     source: Ints
     told: Floats
+    like: Floats
+
+    @property
+    def most(self) -> float:
+        """The largest of their joint masses with the evidence."""
+        return float((self.weight * self.told * self.like).max(initial=0.0))
 
 
 def begin(map_: CognitiveMap, place: int, evidence: Evidence) -> Belief:
     """The belief of an agent that knows to be in `place`, after its first evidence."""
     start = np.array([place])
-    prior = _Candidates(start, map_.position_index[start], np.ones(1), np.zeros(1, dtype=np.int64), np.ones(1))
+    here, one, like = np.zeros(1, dtype=np.int64), np.ones(1), likelihood(map_, start, evidence.sight, evidence.open)
+    prior = _Candidates(start, map_.position_index[start], one, here, one, like)
     return _update(map_, None, prior, None, evidence, FilterOptions(support=0.0))
 
 
 def advance(map_: CognitiveMap, message: Message, evidence: Evidence, options: FilterOptions) -> Belief:
     """The belief after one more action and its evidence."""
     walked = _walk(map_, message, evidence, options)
-    share = walked.weight * walked.told * likelihood(map_, walked.places, evidence.sight, evidence.open)
-    unmoved = float(share.sum())
-    if options.displacement <= options.support * unmoved:  # even a perfect match elsewhere would be dropped
+    share = walked.weight * walked.told * walked.like
+    if options.displacement <= options.support * float(share.sum()):  # even a perfect match elsewhere would be dropped
         return _update(map_, message, walked, None, evidence, options)
-    return _update(map_, message, walked, _displaced(map_, options), evidence, options)
+    displaced, left_out = _displaced(map_, walked, evidence, options)
+    return _update(map_, message, walked, displaced, evidence, options, left_out=left_out)
 
 
 def likelihood(map_: CognitiveMap, places: Ints, sight: int, open_: Sequence[bool]) -> Floats:
@@ -77,18 +91,40 @@ def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: Fil
     places, positions, weight, source, told = (x[real] for x in (places, positions, weight, source, told))
     weight = weight * map_.A_p.probability(positions, places)
     fits = weight > 0.0
-    return _Candidates(places[fits], positions[fits], weight[fits], source[fits], told[fits])
+    places = places[fits]
+    like = likelihood(map_, places, evidence.sight, evidence.open)
+    return _Candidates(places, positions[fits], weight[fits], source[fits], told[fits], like)
 
 
-def _displaced(map_: CognitiveMap, options: FilterOptions) -> _Candidates:
-    """Every visited place with its positions, all alike."""
-    visited = map_.visited_places
-    keys, p, _ = map_.A_p.mean(visited)
-    places = np.repeat(visited, keys.shape[1])
-    weight = (p * (options.displacement / max(len(visited), 1))).ravel()
+def _displaced(
+    map_: CognitiveMap, walked: _Candidates, evidence: Evidence, options: FilterOptions
+) -> tuple[_Candidates, float]:
+    """The visited places where the agent may have been put, and the joint mass of those left out, at most.
+
+    Left out are only places of which neither the belief nor its rivals would hear: most have never shown the sight.
+    """
+    visited, (listed, bound) = map_.visited_places, map_.visited_with(evidence.sight)
+    entered = walked.places[map_.visited[walked.places]]
+    if 2 * len(listed) + FEW < len(visited):
+        places = np.union1d(listed, entered)
+        some = _put_into(map_, places, evidence, options)
+        best = max(part.most for part in (walked, some))
+        each = bound * options.displacement / len(visited)
+        if each < min(options.support, FAINT) * best:
+            return some, each * (len(visited) - len(places))
+    return _put_into(map_, visited, evidence, options), 0.0
+
+
+def _put_into(map_: CognitiveMap, places: Ints, evidence: Evidence, options: FilterOptions) -> _Candidates:
+    """These of the visited places, with their positions, all alike."""
+    keys, p, _ = map_.A_p.mean(places)
+    like = np.repeat(likelihood(map_, places, evidence.sight, evidence.open), keys.shape[1])
+    places = np.repeat(places, keys.shape[1])
+    weight = (p * (options.displacement / max(len(map_.visited_places), 1))).ravel()
     real = weight > 0.0
     count = int(real.sum())
-    return _Candidates(places[real], keys.ravel()[real], weight[real], np.full(count, -1), np.ones(count))
+    positions = keys.ravel()[real]
+    return _Candidates(places[real], positions, weight[real], np.full(count, -1), np.ones(count), like[real])
 
 
 def _update(
@@ -98,6 +134,8 @@ def _update(
     displaced: _Candidates | None,
     evidence: Evidence,
     options: FilterOptions,
+    *,
+    left_out: float = 0.0,
 ) -> Belief:
     parts = [walked] if displaced is None else [walked, displaced]
     places = np.concatenate([part.places for part in parts])
@@ -107,7 +145,8 @@ def _update(
     pairs, pair = np.unique(places * len(map_.positions) + positions, return_inverse=True)
     pair_places, pair_positions = np.divmod(pairs, len(map_.positions))
     predicted = np.bincount(pair, weights=weight, minlength=len(pairs))
-    like = likelihood(map_, pair_places, evidence.sight, evidence.open)
+    like = np.zeros(len(pairs))
+    like[pair] = np.concatenate([part.like for part in parts])
     joint = np.bincount(pair, weights=told, minlength=len(pairs)) * like
     total = joint.sum()
     kept = _support(pair_places, joint / total, options.support)
@@ -121,7 +160,7 @@ def _update(
         evidence=float(np.log(z)),
         log_likelihood=np.log(joint[kept] / predicted[kept]),
         moved=max(0.0, 1.0 - float(walked_mass.sum())) if displaced is not None else 0.0,
-        dropped=1.0 - z / float(total) + unexamined,
+        dropped=1.0 - z / (float(total) + left_out) + unexamined,
         examined=displaced is not None,
         walks=_walks(message, walked, walked_mass),
         faint=(pair_places[~kept], joint[~kept] / z),

@@ -16,7 +16,7 @@ import numpy as np
 from ..model.errors import CogmapError
 from ..model.factors import FloatArray
 from . import elimination as numpy_engine
-from .bucket_tree import BucketTree, calibrated
+from .bucket_tree import BucketTree, tree_of
 from .ordering import Elimination, elimination
 from .problem import Problem
 
@@ -35,14 +35,14 @@ def solve(problem: Problem, order: Sequence[str] | None) -> BucketTree:
     """
     plan, factors = _prepared(problem, order)
     if not plan:
-        return BucketTree(problem, problem.log_scale, (), (), {})
+        return BucketTree(problem, problem.log_scale, (), [], (), {})
     net = _guarded(problem, factors.eliminateSequential, plan)
     conditionals = [net.at(at) for at in range(net.size())]
     place = {i: at for at, (i, _) in enumerate(plan)}
     scopes, products = zip(*(_read(problem, conditional, place) for conditional in conditionals), strict=True)
     messages = [product.sum(axis=0) for product in products]
     log_evidence = problem.log_scale + _log_normaliser(problem, net, conditionals)
-    return calibrated(problem, log_evidence, scopes, products, messages)
+    return tree_of(problem, log_evidence, scopes, products, messages)
 
 
 def maximise(problem: Problem, order: Sequence[str] | None) -> list[int]:

@@ -13,14 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.cognitive_map import CognitiveMap
-from .filter import likelihood
+from .filter import FAINT, likelihood
 from .message import Belief, Evidence, Message
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-FAINT = 1e-8
-"""Odds below which a rival is dropped."""
 
 COINCIDENCE = 1e-2
 """Odds that a rival may gain while nothing contradicts the belief: a world in which new places look like old ones, in
@@ -138,10 +135,7 @@ def advance_rivals(
 
 def _since(map_: CognitiveMap, places: Ints, visits: Ints) -> NDArray[np.bool_]:
     """`[m]` whether each place was first visited after the first `visits` ones."""
-    late = np.zeros(len(places), dtype=np.bool_)
-    for many in np.unique(visits).tolist():
-        late |= (visits == many) & np.isin(places, map_.visited_places[many:])
-    return late
+    return (places >= 0) & (map_.first_visit[places] >= visits)
 
 
 def certain_of(map_: CognitiveMap, place: int, evidence: Evidence, *, odds: float, instead_of: Belief) -> Belief:

@@ -39,9 +39,10 @@ def _determined(tables: Sequence[Table]) -> Parents:
     for scope, values in tables:
         if len(scope) != 2:
             continue
+        many = np.count_nonzero(values)  # tells most tables without a look at each of their rows
         for axis in (0, 1) if scope[0] > scope[1] else (1, 0):
             child, parent = scope[axis], scope[1 - axis]
-            if child in parents or np.count_nonzero(values, axis=axis).max() > 1:
+            if child in parents or many > values.shape[1 - axis] or np.count_nonzero(values, axis=axis).max() > 1:
                 continue
             own = values.argmax(axis=axis)
             if parent in parents:

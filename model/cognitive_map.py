@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from .domain import Domain
 from .errors import CogmapError
 from .growth_log import GrowthEvent, GrowthKind
 from .motions import Motions, Position
+from .sight_index import SightIndex
 
 if TYPE_CHECKING:
     from networkx import MultiDiGraph
@@ -74,8 +75,10 @@ class CognitiveMap:
         self._beyond = Column(np.int64, width=len(motions))
         self._visited = Column(np.bool_)
         self._visits = Column(np.int64)
+        self._first_visit = Column(np.int64)
         self._sensed = Column(np.int8, width=len(motions))
         self._walked = Column(np.bool_, width=len(motions))
+        self._by_sight = SightIndex(self)
 
     # -- reading -------------------------------------------------------------------------------------------
 
@@ -93,6 +96,11 @@ class CognitiveMap:
     def visited_places(self) -> Ints:
         """The places ever entered, in the order of their first visit."""
         return self._visits.values.astype(np.int64, copy=False)
+
+    @property
+    def first_visit(self) -> Ints:
+        """`[S]` index of each place in `visited_places`; -1 where it was never entered."""
+        return self._first_visit.values.astype(np.int64, copy=False)
 
     @property
     def sensed(self) -> NDArray[np.int8]:
@@ -143,6 +151,13 @@ class CognitiveMap:
         if index is None or self._place_at.values[index] < 0:
             return None
         return int(self._place_at.values[index])
+
+    def visited_with(self, sight: int) -> tuple[Ints, float]:
+        """The visited places that have counts for `sight`, or hardly any, and a bound on A_o[sight, s] elsewhere.
+
+        The bound is for the visited places besides.
+        """
+        return self._by_sight.places(sight)
 
     def row(self, place: int, action: int) -> int:
         """Row of `B_s` for `place` under `action`."""
@@ -268,6 +283,7 @@ class CognitiveMap:
                 self.B_s.expect(first + action_, ELSEWHERE, self.priors.transition)
         self._position_of.append(-1)
         self._visited.append(False)
+        self._first_visit.append(-1)
         self._sensed.append(UNKNOWN)
         self._walked.append(False)
         self._log(step, "place", place, position, source, action)
@@ -329,10 +345,11 @@ class CognitiveMap:
         """
         dropped = len(self.places) - places
         self._visited.values[self.visited_places[visits:]] = False
+        self._first_visit.values[self.visited_places[visits:]] = -1
         self._visits.shrink(visits)
         for table, rows in ((self.A_o, places), (self.A_p, places), (self.B_s, places * len(self.motions))):
             table.shrink(rows)
-        for column in (self._position_of, self._visited, self._sensed, self._walked):
+        for column in (self._position_of, self._visited, self._first_visit, self._sensed, self._walked):
             column.shrink(places)
         self._log(step, "retract", dropped)
 
@@ -340,7 +357,16 @@ class CognitiveMap:
         """Note that the agent was in `place`."""
         if not self._visited.values[place]:
             self._visited.values[place] = True
-            self._visits.append(place)
+            self._first_visit.values[place] = self._visits.append(place)
+
+    def restore_columns(self, columns: Mapping[str, NDArray[np.generic]]) -> None:
+        """Take over the values of `columns`, by name."""
+        for name, column in self.columns.items():
+            column.restore(columns[name])
+        visits = self.visited_places
+        first = np.full(len(self._visited), -1, dtype=np.int64)
+        first[visits] = np.arange(len(visits))
+        self._first_visit.restore(first)
 
     def grow_time(self, *, step: int) -> None:
         """Log that the variables and factors of a time step were added."""

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import CogmapError
+from .journal import Journal
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -32,13 +33,15 @@ class SparseDirichlet:
     Attributes:
         background: concentration of every outcome of the domain, whether it has a slot or not.
         outcomes: size of the domain; matters only where `background` is positive.
+        journal: of the rows that change, where somebody wants to know.
     """
 
-    __slots__ = ("_evidence", "_keys", "_prior", "_rows", "background", "outcomes")
+    __slots__ = ("_evidence", "_keys", "_prior", "_rows", "background", "journal", "outcomes")
 
     def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0) -> None:
         self.background = background
         self.outcomes = outcomes
+        self.journal: Journal | None = None
         self._rows = 0
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
@@ -66,6 +69,16 @@ class SparseDirichlet:
         for array, empty in ((self._keys, EMPTY), (self._prior, 0.0), (self._evidence, 0.0)):
             array[rows : self._rows] = empty
         self._rows = rows
+        self._changed(None)
+
+    def _changed(self, row: int | None) -> None:
+        """Note that a row changed; None: any may have."""
+        if self.journal is None:
+            return
+        if row is None:
+            self.journal.note_all()
+        else:
+            self.journal.note(row)
 
     def _resize(self, rows: int, slots: int) -> None:
         self._keys = _grown(self._keys, (rows, slots), EMPTY).astype(np.int64)
@@ -88,6 +101,7 @@ class SparseDirichlet:
         """Give outcome `key` of `row` a prior of its own."""
         slot = self._slot(row, key)  # may put larger arrays in place
         self._prior[row, slot] = prior
+        self._changed(row)
 
     def rename(self, row: int, old: int, new: int) -> None:
         """Let the slot of outcome `old` stand for `new`, with the counts it has.
@@ -99,6 +113,7 @@ class SparseDirichlet:
             raise CogmapError(f"table: outcome {new} of row {row} has counts already; rename to an outcome without")
         slot = self._slot(row, old)  # may put larger arrays in place
         self._keys[row, slot] = new
+        self._changed(None)
 
     def add(self, row: int, key: int, amount: float, *, most: float = inf) -> float:
         """Add evidence (negative takes away) for `key` in `row`, `most` in all; returns what was really added."""
@@ -108,6 +123,7 @@ class SparseDirichlet:
         before = float(self._evidence[row, slot])
         after = min(max(before + amount, 0.0), max(before, most))
         self._evidence[row, slot] = after
+        self._changed(row)
         return after - before
 
     def evidence(self, row: int, key: int) -> float:
@@ -122,10 +138,15 @@ class SparseDirichlet:
     def fade(self, rows: Ints | slice, keep: float) -> None:
         """Multiply the evidence of `rows` by `keep`, in [0, 1]: what was learned long ago fades."""
         self._evidence[rows] *= keep
+        self._changed(None)
 
     def keys(self, rows: Ints) -> Ints:
         """`[n, slots]` outcomes that have a slot in `rows` (`EMPTY` where unused)."""
         return self._keys[rows]
+
+    def total(self, rows: Ints) -> Floats:
+        """`[n]` counts of `rows` in all, background left out."""
+        return (self._prior[rows] + self._evidence[rows]).sum(axis=1)
 
     def concentration(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
         """Counts of `rows`.
@@ -187,3 +208,4 @@ class SparseDirichlet:
         self._prior = state["prior"].astype(np.float64)
         self._evidence = state["evidence"].astype(np.float64)
         self._rows = self._keys.shape[0]
+        self._changed(None)

@@ -16,8 +16,7 @@ class Domain:
         self.name = name
         self._labels: list[Hashable] = []
         self._index: dict[Hashable, int] = {}
-        for label in labels:
-            self.add(label)
+        self.extend(labels)
 
     def __len__(self) -> int:
         return len(self._labels)
@@ -54,6 +53,31 @@ class Domain:
             known = ", ".join(repr(known) for known in self._labels[:8])
             raise CogmapError(f"{self.name}: {label!r} was never met; known are {known}{', …' * (len(self) > 8)}")
         return found
+
+    def indices(self, labels: Iterable[Hashable]) -> list[int]:
+        """The numbers of `labels`.
+
+        Raises:
+            CogmapError: one was never met.
+        """
+        labels = list(labels)
+        try:
+            return list(map(self._index.__getitem__, labels))
+        except (KeyError, TypeError):
+            return [self.index(label) for label in labels]
+
+    def extend(self, labels: Iterable[Hashable]) -> None:
+        """Append those of `labels` that are new."""
+        labels = list(labels)
+        try:
+            index = dict(zip(labels, range(len(labels)), strict=True))
+        except TypeError:
+            index = dict[Hashable, int]()
+        if self._labels or len(index) < len(labels):  # one by one where any may be known, or cannot be a label
+            for label in labels:
+                self.add(label)
+        else:
+            self._labels, self._index = labels, index
 
     def add(self, label: Hashable) -> int:
         """The number of `label`, which is appended where it is new."""

@@ -21,6 +21,8 @@ def encode(label: Hashable, *, where: str = "save") -> Any:
     Raises:
         CogmapError: the label is of another type, or a number that JSON does not have.
     """
+    if type(label) is tuple and set(map(type, label)) == {int}:  # positions, of which there are many
+        return {"tuple": list(label)}
     if isinstance(label, float) and not math.isfinite(label):
         raise CogmapError(
             f"{where}: cannot write label {label!r}, JSON has none such; label with a finite number or a str"
@@ -38,7 +40,10 @@ def encode(label: Hashable, *, where: str = "save") -> Any:
 def decode(value: Any) -> Hashable:
     """The label that `encode` wrote."""
     if isinstance(value, dict):
-        return tuple(decode(part) for part in cast(dict[str, list[Any]], value)["tuple"])
+        parts = cast(dict[str, list[Any]], value)["tuple"]
+        if dict not in map(type, parts):
+            return tuple(parts)
+        return tuple(decode(part) for part in parts)
     return value
 
 

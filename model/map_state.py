@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,11 +24,7 @@ def map_arrays(map_: CognitiveMap) -> Arrays:
             arrays[f"{name}.{part}"] = values
     for name, column in map_.columns.items():
         arrays[f"map.{name}"] = column.values.copy()
-    events = [
-        (event.step, KINDS.index(event.kind), event.index, _or(event.source), _or(event.action), _number(map_, event))
-        for event in map_.growth
-    ]
-    arrays["growth"] = np.array(events, dtype=np.int64).reshape(-1, 6)
+    arrays["growth"] = _rows(map_)
     return arrays
 
 
@@ -45,16 +41,13 @@ def restore_map(
     _check_columns(arrays, len(arrays["A_o.keys"]), len(positions), len(map_.motions))
     if arrays["growth"].ndim != 2 or not _within(arrays["growth"][:, 1], 0, len(KINDS)):
         raise CogmapError("map: the log of growth has kinds that are none; save it again")
-    for label in sights:
-        map_.sights.add(label)
-    for label in positions:
-        map_.positions.add(label)
+    map_.sights.extend(sights)
+    map_.positions.extend(positions)
     map_.A_o.outcomes = len(map_.sights) + 1
     for name in ("A_o", "A_p", "B_s"):
         getattr(map_, name).restore({part: arrays[f"{name}.{part}"] for part in ("keys", "prior", "evidence")})
-    for name, column in map_.columns.items():
-        column.restore(arrays[f"map.{name}"])
-    map_.growth.extend(_events(map_, arrays["growth"].tolist()))
+    map_.restore_columns({name: arrays[f"map.{name}"] for name in map_.columns})
+    map_.growth.extend(_events(map_, arrays["growth"]))
 
 
 def _check_counts(arrays: Mapping[str, NDArray[Any]], sights: int, positions: int, actions: int) -> None:
@@ -90,25 +83,33 @@ def _within(numbers: NDArray[Any], least: float, bound: float) -> bool:
     return numbers.dtype.kind in "ibf" and bool(((numbers >= least) & (numbers < bound)).all())
 
 
-def _or(number: int | None) -> int:
-    return -1 if number is None else number
+def _rows(map_: CognitiveMap) -> NDArray[np.int64]:
+    """`[events, 6]` the log of growth: step, kind, index, source, action, and number of the label; -1 for None."""
+    rows = np.full((len(map_.growth), 6), -1, dtype=np.int64)
+    rows[:, 0] = [event.step for event in map_.growth]
+    rows[:, 1] = [KINDS.index(event.kind) for event in map_.growth]
+    rows[:, 2] = [event.index for event in map_.growth]
+    rows[:, 3] = [-1 if event.source is None else event.source for event in map_.growth]
+    rows[:, 4] = [-1 if event.action is None else event.action for event in map_.growth]
+    labelled = np.array([event.label is not None for event in map_.growth], dtype=np.bool_)
+    sights = labelled & (rows[:, 1] == KINDS.index("sight"))
+    for domain, chosen in ((map_.sights, sights), (map_.positions, labelled & ~sights)):
+        labels = [map_.growth[i].label for i in np.flatnonzero(chosen).tolist()]
+        rows[chosen, 5] = domain.indices(labels)
+    return rows
 
 
-def _events(map_: CognitiveMap, rows: list[list[int]]) -> list[GrowthEvent]:
-    return [
-        GrowthEvent(
-            step=step,
-            kind=KINDS[kind],
-            index=index,
-            label=None if label < 0 else map_.sights[label] if KINDS[kind] == "sight" else map_.positions[label],
-            source=None if source < 0 else source,
-            action=None if action < 0 else action,
-        )
-        for step, kind, index, source, action, label in rows
+def _events(map_: CognitiveMap, rows: NDArray[np.int64]) -> Iterator[GrowthEvent]:
+    """The log of growth from its rows, column by column: it is long."""
+    steps, kinds, indices, sources, actions, numbers = rows.T.tolist()
+    domains = [list(map_.sights if kind == "sight" else map_.positions) for kind in KINDS]
+    labels = [
+        None if number < 0 else domain[number]
+        for number, domain in zip(numbers, (domains[kind] for kind in kinds), strict=True)
     ]
+    names = [KINDS[kind] for kind in kinds]
+    return map(GrowthEvent, steps, names, indices, labels, _or_none(sources), _or_none(actions))
 
 
-def _number(map_: CognitiveMap, event: GrowthEvent) -> int:
-    """Number of the event's label in its domain, or -1."""
-    domain = map_.sights if event.kind == "sight" else map_.positions
-    return -1 if event.label is None else domain.index(event.label)
+def _or_none(numbers: list[int]) -> list[int | None]:
+    return [None if number < 0 else number for number in numbers]

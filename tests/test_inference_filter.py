@@ -349,3 +349,56 @@ def test_a_committed_belief_has_its_own_probability_of_having_been_moved() -> No
     _, belief = two_hypotheses()
     committed = belief.committed()
     assert committed.moved == pytest.approx(1.0 - committed.walks[2].sum(), abs=1e-9)
+
+
+# -- a large map -----------------------------------------------------------------------------------------------
+
+
+def large_map(rng: np.random.Generator, sights: int) -> CognitiveMap:
+    """Twelve by ten places, most of them visited and most of those seen for sure."""
+    map_ = CognitiveMap(Motions.of(GRID))
+    for cell in range(120):
+        map_.new_place((cell // 10, cell % 10), step=0)
+    for sight in range(sights):
+        map_.new_sight(sight, step=0)
+    learner = Learner(map_, Rates())
+    for place in rng.permutation(120)[:110].tolist():
+        map_.mark_visited(place)
+        for _ in range(int(rng.integers(1, 3))):
+            learner.sight(place, int(rng.integers(sights)), float(rng.choice([1.0, 0.8, 1e-3], p=[0.7, 0.2, 0.1])))
+        learner.doors(place, [*(rng.random(4) < 0.6), True], 1.0)
+    return map_
+
+
+@given(
+    seed=st.integers(0, 10**6),
+    action=st.integers(0, 4),
+    displacement=st.sampled_from([1e-4, 0.3]),
+    support=st.sampled_from([1e-3, 0.0, 0.2]),
+    sights=st.sampled_from([3, 8, 40]),
+)
+@settings(max_examples=60, deadline=None)
+def test_looking_a_sight_up_changes_nothing(
+    seed: int, action: int, displacement: float, support: float, sights: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    map_ = large_map(rng, sights)
+    options = FilterOptions(displacement=displacement, support=support)
+    held = rng.permutation(120)[: int(rng.integers(1, 5))]
+    message = Message(held, map_.position_index[held], rng.dirichlet(np.ones(len(held))))
+    doors = [*(rng.random(4) < 0.5).tolist(), True]
+    evidence = Evidence(action, bool(rng.random() < 0.5), int(rng.integers(sights)), doors)
+    belief = advance(map_, message, evidence, options)
+    map_.visited_with = lambda sight: (map_.visited_places, 0.0)  # type: ignore[method-assign]
+    plain = advance(map_, message, evidence, options)
+
+    for name in ("places", "positions", "mass"):
+        np.testing.assert_allclose(getattr(belief.message, name), getattr(plain.message, name), rtol=0, atol=1e-9)
+    for one, other in zip(belief.walks, plain.walks, strict=True):
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-9)
+    assert belief.evidence == pytest.approx(plain.evidence, abs=1e-9)
+    assert belief.moved == pytest.approx(plain.moved, abs=1e-9)
+    assert plain.dropped - 1e-12 <= belief.dropped <= plain.dropped + 1e-6
+    told = dict(zip(*belief.faint, strict=True))
+    for place, odds in zip(*plain.faint, strict=True):  # rivals hear of every one that matters
+        assert place in told or odds < 1e-8

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from typing import Any
 
 import numpy as np
@@ -156,3 +157,22 @@ def test_motions_refuse_fractions() -> None:
 def test_motions_refuse_infinity() -> None:
     with pytest.raises(CogmapError):
         Motions.of({"left": (float("-inf"),), "right": (float("inf"),), "stay": (0,)})
+
+
+@given(st.lists(st.one_of(st.integers(0, 4), st.text("ab", max_size=1), st.tuples(st.integers(0, 2)))))
+def test_many_labels_at_once_are_the_same_as_one_by_one(labels: list[Hashable]) -> None:
+    one_by_one, at_once = Domain("x"), Domain("x")
+    for label in labels:
+        one_by_one.add(label)
+    at_once.extend(labels[:3])
+    at_once.extend(labels[3:])
+    assert list(at_once) == list(one_by_one)
+    assert at_once.indices(labels) == [one_by_one.index(label) for label in labels]
+
+
+def test_many_labels_at_once_are_checked() -> None:
+    domain = Domain("x", "ab")
+    with pytest.raises(CogmapError, match="not hashable"):
+        Domain("x").extend(["a", []])  # type: ignore[list-item]
+    with pytest.raises(CogmapError, match="'c' was never met"):
+        domain.indices(["a", "c"])

@@ -1,0 +1,31 @@
+"""Which rows of a table changed, for those who keep something beside it."""
+
+from __future__ import annotations
+
+MOST = 1000
+"""Rows that are noted one by one; beyond that, any may have changed."""
+
+
+class Journal:
+    """The rows that changed since it was last read; at first, any may have."""
+
+    __slots__ = ("_rows",)
+
+    def __init__(self) -> None:
+        self._rows: list[int] | None = None
+
+    def note(self, row: int) -> None:
+        """Counts of one row changed, or it got a slot."""
+        if self._rows is not None:
+            self._rows.append(row)
+            if len(self._rows) > MOST:
+                self._rows = None
+
+    def note_all(self) -> None:
+        """Any row may have changed."""
+        self._rows = None
+
+    def take(self) -> list[int] | None:
+        """The rows since the last call, or None where any may have changed."""
+        taken, self._rows = self._rows, []
+        return taken

@@ -1,0 +1,84 @@
+"""Visited places by the sights that they have counts for, so that a sight can be looked up in a large map."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .column import Column
+from .dirichlet import EMPTY
+from .journal import Journal
+
+if TYPE_CHECKING:
+    from .cognitive_map import CognitiveMap
+
+Ints = NDArray[np.int64]
+
+SETTLED = 0.5
+"""Counts in all, from which on a place without any for a sight makes that sight improbable."""
+
+
+class SightIndex:
+    """Which visited places may show a sight; brought up to date from the journal of A_o when it is asked.
+
+    Args:
+        map_: whose `A_o` gets a journal.
+    """
+
+    __slots__ = ("_journal", "_listed", "_map", "_places", "_unsettled")
+
+    def __init__(self, map_: CognitiveMap) -> None:
+        self._map = map_
+        self._journal = map_.A_o.journal = Journal()
+        self._places: dict[int, Column] = {}
+        self._listed = Column(np.int64)  # how many slots of a place are in `_places`, in the order of visits
+        self._unsettled: set[int] = set()
+
+    def places(self, sight: int) -> tuple[Ints, float]:
+        """The visited places that may show `sight`, and a bound on P(sight | s) of every visited place besides."""
+        self._update()
+        column = self._places.get(sight)
+        listed = np.zeros(0, dtype=np.int64) if column is None else column.values.astype(np.int64, copy=False)
+        if self._unsettled:
+            listed = np.union1d(listed, np.array(sorted(self._unsettled), dtype=np.int64))
+        return listed, self._map.A_o.background / SETTLED
+
+    def _update(self) -> None:
+        changed, visits = self._journal.take(), self._map.visited_places
+        if changed is None:
+            self._rebuild(visits)
+        else:
+            new = visits[len(self._listed) :].tolist()
+            for _ in new:
+                self._listed.append(0)
+            for place in dict.fromkeys([*changed, *new]):
+                if self._map.visited[place]:
+                    self._take_in(place)
+
+    def _take_in(self, place: int) -> None:
+        """List the slots of a place that are not yet; a slot, once taken, is never given up."""
+        here = np.array([place])
+        keys = [key for key in self._map.A_o.keys(here)[0].tolist() if key != EMPTY]
+        visit = self._map.first_visit[place]
+        for key in keys[int(self._listed.values[visit]) :]:
+            self._places.setdefault(key, Column(np.int64)).append(place)
+        self._listed.values[visit] = len(keys)
+        if self._map.A_o.total(here)[0] >= SETTLED:
+            self._unsettled.discard(place)
+        else:
+            self._unsettled.add(place)
+
+    def _rebuild(self, visits: Ints) -> None:
+        keys = self._map.A_o.keys(visits)
+        used = keys != EMPTY
+        places, keys = visits[np.nonzero(used)[0]], keys[used]
+        order = np.argsort(keys, kind="stable")
+        distinct, first = np.unique(keys[order], return_index=True)
+        self._places = {}
+        for key, part in zip(distinct.tolist(), np.split(places[order], first[1:]), strict=False):
+            self._places[key] = Column(np.int64)
+            self._places[key].restore(part)
+        self._listed.restore(used.sum(axis=1))
+        self._unsettled = set(visits[self._map.A_o.total(visits) < SETTLED].tolist())
