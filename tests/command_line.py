@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from typing import Any
 
 from cogmap.experiments.cli import app
@@ -13,3 +14,8 @@ def cogmap(*args: object) -> Any:
     result: Any = CliRunner().invoke(app, [str(arg) for arg in args])
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     return result
+
+
+def heeding_ctrl_c() -> None:
+    """In a process just started: heed Ctrl-C even where this one, run in the background by a shell, does not."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -5,6 +5,7 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -107,11 +108,16 @@ def test_scale(tmp_path: Path) -> None:
             assert row["steps"] == sum(row["of_each"]["agent"]) + 2  # the observation of the first room comes first
 
 
-def test_scale_says_when_memory_does_not_suffice(tmp_path: Path) -> None:
-    asked = ("--rooms", "900", "--parts", "localised", "--steps", "3", "--gigabytes", "0.3")
-    printed, result = measured("scale.py", tmp_path, *asked)
-    assert result["rows"] == [{"part": "localised", "rooms": 900, "failed": "more than 0.3 GB"}]
-    assert "more than 0.3 GB" in printed
+def test_scale_says_when_memory_does_not_suffice(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    scale = importlib.import_module("scale")
+
+    def too_large(rooms: int, asked: object) -> dict[str, Any]:
+        raise MemoryError
+
+    monkeypatch.setitem(scale.PARTS, "localised", too_large)
+    row = scale.measured("localised", 900, SimpleNamespace(gigabytes=0.3))
+    assert row == {"part": "localised", "rooms": 900, "failed": "more than 0.3 GB"}
 
 
 @pytest.mark.parametrize("seed", range(3))

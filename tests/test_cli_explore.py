@@ -15,7 +15,7 @@ from cogmap.experiments.cli import app
 from cogmap.experiments.cli_explore import explore_command
 from cogmap.experiments.cli_spark import sparkline
 from cogmap.worlds import format_maze, hall
-from command_line import cogmap
+from command_line import cogmap, heeding_ctrl_c
 from typer.testing import CliRunner
 
 COMMAND = [sys.executable, "-c", "from cogmap.experiments.cli import main; main()"]
@@ -160,7 +160,9 @@ def test_an_interrupt_is_one_line_and_exit_code_130(monkeypatch: pytest.MonkeyPa
 def test_ctrl_c_ends_the_workers_too() -> None:
     Path("hall.txt").write_text(format_maze(hall(12, 12, sights=None)))
     command = [*COMMAND, "explore", "hall.txt", "--runs", "50", "--jobs", "2"]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        command, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=heeding_ctrl_c
+    )
     time.sleep(2.5)
     os.killpg(process.pid, signal.SIGINT)
     _, errors = process.communicate(timeout=90)

@@ -27,7 +27,7 @@ from cogmap.experiments.ledger import Ledger
 from cogmap.experiments.pool import WorkerLostError, completed, map_seeds, map_tasks
 from cogmap.model import CogmapError
 from cogmap.worlds import MAZES, Maze
-from command_line import cogmap
+from command_line import cogmap, heeding_ctrl_c
 
 SMALL, LINE = MAZES["3x3"], Maze("line", {(0, 0): 0, (0, 1): 1, (0, 2): 2})
 CELLS = [
@@ -328,6 +328,7 @@ if __name__ == "__main__":
 def test_an_end_from_outside_leaves_the_rows_and_no_process(tmp_path: Path, blow: signal.Signals) -> None:
     (tmp_path / "script.py").write_text(SCRIPT)
     pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    pipes["preexec_fn"] = heeding_ctrl_c
     process = subprocess.Popen([sys.executable, "script.py"], cwd=tmp_path, start_new_session=True, **pipes)
     assert process.stdout is not None
     pids = [process.stdout.readline().split() for _ in range(3)][-1]
