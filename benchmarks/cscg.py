@@ -30,6 +30,7 @@ READINGS: Mapping[str, CscgSettings] = {
     "curious": CscgSettings(exploring="curious"),
     "stays": CscgSettings(stays=True),
     "continued": CscgSettings(retraining="continue"),
+    "to the end": CscgSettings(tolerance=0.0),
 }
 
 

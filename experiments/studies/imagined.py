@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from ...model import CognitiveMap
 from ...planning import Plan
+from ...views import policy_paths
 from ...worlds import Position
 
 LEAST = 1e-3
@@ -41,28 +39,14 @@ def imagined_paths(plan: Plan, map_: CognitiveMap, start: Position) -> tuple[Ima
         map_: of the agent, in two dimensions.
         start: the room that the agent takes as its origin.
     """
-    rooms = [room_of(map_, int(place), start) for place in plan.places.tolist()]
-    shares: defaultdict[tuple[Position, ...], float] = defaultdict(float)
-    likely = np.flatnonzero(plan.probability >= LEAST / 10)
-    for first in np.flatnonzero(plan.reach.belief >= LEAST).tolist():
-        for policy in likely.tolist():
-            path = _path(plan, rooms, first, policy)
-            shares[path] += float(plan.reach.belief[first] * plan.probability[policy])
-    kept = sorted((item for item in shares.items() if item[1] >= LEAST), key=lambda item: (-item[1], item[0]))
-    return tuple(ImaginedPath(path, round(probability, 6)) for path, probability in kept)
+    paths = policy_paths(plan, map_, start=start, least=LEAST)
+    return tuple(
+        ImaginedPath(tuple((int(row), int(column)) for row, column in path), round(probability, 6))
+        for path, probability in paths.items()
+    )
 
 
 def room_of(map_: CognitiveMap, place: int, start: Position) -> Position | None:
     """The room that `place` stands for; None where its position is not known, or there is no such place (-1)."""
     position = None if place < 0 else map_.position(place)
     return None if position is None else (start[0] + position[0], start[1] + position[1])
-
-
-def _path(plan: Plan, rooms: list[Position | None], first: int, policy: int) -> tuple[Position, ...]:
-    at, path = first, [rooms[first]]
-    for action in plan.policies[policy].tolist():
-        ahead = int(plan.reach.successor[at, action])
-        at = at if ahead < 0 else ahead
-        if rooms[at] != path[-1]:
-            path.append(rooms[at])
-    return tuple(room for room in path if room is not None)
