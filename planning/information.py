@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -58,21 +59,62 @@ def dirichlet_information(alpha: ArrayLike, steps: int, *, multiplicity: ArrayLi
     return np.cumsum(information, axis=-1)
 
 
-def interpolated(table: Floats, visits: Floats) -> Floats:
-    """I(visits): `table[r]` read at `visits[..., r]`, linear between integers, constant beyond N."""
-    last = table.shape[1] - 1
-    if last == 0:
-        return np.broadcast_to(table[:, 0], visits.shape)
-    bounded = np.minimum(visits, last)
-    low = np.minimum(bounded.astype(np.int64), last - 1)
-    at = np.arange(len(table)) * (last + 1) + low
-    flat = table.ravel()
-    base = flat.take(at)
-    return base + (bounded - low) * (flat.take(at + 1) - base)
+@dataclass(frozen=True, slots=True)
+class Lessons:
+    """What visits teach: tables I_s(0..N) laid out to be read at many numbers of visits at once.
+
+    Between integers I is linear, so I_s(x) = rise x + base on each piece; beyond N it is constant.
+
+    Attributes:
+        tables: `T` tables `[R, N + 1]`, N of each its own.
+        told: the `t` tables that are not all zero.
+        pieces: `[R * (most + 1), 2 t]` base, then rise, of each told table on each piece of each place.
+        most: the largest N.
+    """
+
+    tables: Sequence[Floats]
+    told: list[int]
+    pieces: Floats
+    most: int
+
+    def collected(self, visits: Floats, reached: Floats) -> Floats:
+        """What expected visits teach: probability of any visit, times I of the visits there are then.
+
+        Args:
+            visits: `[n, R]` expected visits.
+            reached: `[n, R]` probability of any visit, at most `visits`.
+
+        Returns:
+            `[T, n]` nats, summed over places: sum_s reached I_s(visits / reached).
+        """
+        collected = np.zeros((len(self.tables), len(visits)))
+        if self.told:
+            many = visits / np.maximum(reached, np.finfo(np.float64).tiny)
+            piece = np.minimum(many, self.most).astype(np.int64)
+            piece += np.arange(visits.shape[1]) * (self.most + 1)
+            at, count = self.pieces.take(piece, axis=0), len(self.told)
+            collected[self.told] = np.einsum("nr,nrt->tn", reached, at[..., :count])
+            collected[self.told] += np.einsum("nr,nrt->tn", visits, at[..., count:])
+        return collected
+
+
+def lessons(tables: Sequence[Floats]) -> Lessons:
+    """Tables `[R, N + 1]` of information from 0..N visits, zero in column 0, made ready to be read."""
+    told = [i for i, table in enumerate(tables) if table.any()]
+    most = max(table.shape[1] for table in tables) - 1
+    places = len(tables[0])
+    base, rise = np.zeros((2, places, most + 1, len(told)))
+    for at, table in enumerate(tables[i] for i in told):
+        steps = np.diff(table, axis=1)
+        last = steps.shape[1]
+        rise[:, :last, at] = steps
+        base[:, :last, at] = table[:, :-1] - np.arange(last) * steps
+        base[:, last:, at] = table[:, -1:]
+    return Lessons(tables, told, np.concatenate([base, rise], axis=2).reshape(places * (most + 1), -1), most)
 
 
 def collected_information(tables: Sequence[Floats], visits: Floats, reached: Floats) -> Floats:
-    """What expected visits teach: probability of any visit, times I of the visits there are then.
+    """What expected visits teach: `lessons(tables).collected(visits, reached)`.
 
     Args:
         tables: `T` tables `[R, N + 1]` of information from 0..N visits, zero in column 0.
@@ -82,9 +124,7 @@ def collected_information(tables: Sequence[Floats], visits: Floats, reached: Flo
     Returns:
         `[T, n]` nats, summed over places: sum_s reached I_s(visits / reached).
     """
-    many = np.divide(visits, reached, out=np.zeros_like(visits), where=reached > 0.0)
-    rows = [reached * interpolated(table, many) if table.any() else None for table in tables]
-    return np.array([np.zeros(len(visits)) if row is None else row.sum(axis=1) for row in rows])
+    return lessons(tables).collected(visits, reached)
 
 
 def _checked(alpha: ArrayLike, multiplicity: ArrayLike | None, steps: int) -> tuple[Floats, Floats]:

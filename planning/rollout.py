@@ -8,16 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
-from .information import collected_information
+from .information import Lessons, lessons
 from .policies.base import Policies
+from .prefixes import Prefixes, prefixes_of
 from .reach import Reach
 from .staying import geometric, staying_teaches
 from .transitions import Transitions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-CHUNK = 2_000_000  # numbers in the largest array; more policies are evaluated in parts
-FEW = 128  # places up to which a dense product is quicker than going through the successors
+CHUNK = 200_000  # numbers in the larger arrays; more policies are evaluated in parts
+FEW = 64  # places up to which a dense product is quicker than going through the successors
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +112,7 @@ def _groups(reach: Reach, actions: Ints) -> list[tuple[Ints, Ints]]:
 
 def _in_parts(tables: _Tables, actions: Ints) -> Floats:
     """`[6, P]` the terms of each policy."""
-    size = max(1, CHUNK // (tables.risk.size or 1))
+    size = max(1, CHUNK // (len(tables.belief) * actions.shape[1]))
     parts = [_evaluate(tables, actions[i : i + size]) for i in range(0, len(actions), size)]
     return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
 
@@ -121,12 +122,11 @@ class _Tables:
     """The tables of `Reach` laid out for the rollout."""
 
     belief: Floats  # [R]
-    B: Floats | Transitions  # [K, R, R], B[a, s, s'], or where the places are many their successors
+    B: Floats | Transitions  # [R, K * R], B[s, (a, s')], or where the places are many their successors
     A: Floats  # [R, O]
-    ambiguity: Floats  # [R] H[A[:, s]], without the multiplicity, which cancels in the state information
-    utility: Floats  # [R] expected log preference
-    risk: Floats  # [K, R] expected cost of collision
-    information: tuple[Floats, ...]  # of A_o, A_p, B_s, each [R, N + 1]
+    linear: Floats  # [R, 2 + K] ambiguity H[A[:, s]], without the multiplicity, which cancels in the state information;
+    # expected log preference; expected cost of collision of each action
+    lessons: Lessons  # of A_o, A_p, B_s
     discount: float
     stay: int
     settled: bool  # whether it is known that to stay leaves every belief as it is
@@ -138,15 +138,15 @@ class _Tables:
         at = slice(None) if every else columns
         B = reach.B.within(columns) if isinstance(reach.B, Transitions) and not every else reach.B
         A = np.ascontiguousarray(reach.A.T[at])
-        information = (reach.sight_information, reach.position_information, reach.transition_information)
+        risk = reach.collision_cost * reach.collision[at]
         return cls(
             belief=reach.belief[at],
             B=_laid_out(B),
             A=A,
-            ambiguity=_entropy(A),
-            utility=reach.utility[at],
-            risk=np.ascontiguousarray(reach.collision_cost * reach.collision[at].T),
-            information=tuple(table[at] for table in information),
+            linear=np.column_stack([_entropy(A), reach.utility[at], risk]),
+            lessons=lessons(
+                [reach.sight_information[at], reach.position_information[at], reach.transition_information[at]]
+            ),
             discount=reach.discount,
             stay=reach.motions.stay,
             settled=isinstance(B, Transitions) and B.settled(reach.motions.stay),
@@ -154,43 +154,34 @@ class _Tables:
 
 
 def _laid_out(B: Floats | Transitions) -> Floats | Transitions:
-    if not isinstance(B, Transitions):
-        return np.ascontiguousarray(B.transpose(2, 1, 0))
-    return B.by_action if len(B.successors) <= FEW else B
+    if isinstance(B, Transitions) and len(B.successors) > FEW:
+        return B
+    by_place = B.by_place if isinstance(B, Transitions) else np.ascontiguousarray(B.transpose(1, 2, 0))
+    return by_place.reshape(len(by_place), -1)
 
 
 @dataclass(frozen=True, slots=True)
-class _Level:
-    """The distinct prefixes of one length: `n` nodes of the prefix tree."""
+class _Rolled:
+    """What is expected after each of `N` prefixes."""
 
-    belief: Floats  # [n, R] Q_t
-    visits: Floats  # [n, R] expected visits so far
-    reached: Floats  # [n, R] probability of any visit so far
-    learned: Floats  # [3, n] information about A_o, A_p and B_s collected by them
+    belief: Floats  # [N, R] Q_t
+    visits: Floats  # [N, R] expected visits so far
+    reached: Floats  # [N, R] probability of any visit so far
 
 
 def _evaluate(tables: _Tables, actions: Ints) -> Floats:
     """`[6, P]` the terms of each policy."""
-    kinds, places = tables.risk.shape
-    nothing = np.zeros((1, places))
-    level = _Level(tables.belief[None], nothing, nothing, np.zeros((3, 1)))
-    node = np.zeros(len(actions), dtype=np.int64)
-    total = np.zeros((6, len(actions)))
-    weight = 1.0
     length = actions.shape[1]
     moving = _moving(tables, actions) if tables.settled else length
-    for column in actions.T[:moving]:
-        # children are numbered action by action, so that one product serves all children of an action
-        child = column * len(level.belief) + node
-        present = np.zeros(kinds * len(level.belief), dtype=np.bool_)
-        present[child] = True
-        node = (np.cumsum(present) - 1)[child]
-        action, parent = np.divmod(np.flatnonzero(present), len(level.belief))
-        level, gains = _descend(tables, level, parent, action)
-        total += weight * gains[:, node]
-        weight *= tables.discount
+    prefixes = prefixes_of(actions[:, :moving])
+    rolled = _roll(tables, prefixes)
+    gains = _gains(tables, prefixes, rolled)
+    gains *= tables.discount ** (prefixes.length - 1.0)
+    total = gains.take(prefixes.of, axis=1).sum(axis=2)
     if moving < length:
-        total += weight * _stay(tables, level, length - moving)[:, node]
+        last = prefixes.of[:, -1]
+        ends = _Rolled(rolled.belief[last], rolled.visits[last], rolled.reached[last])
+        total += tables.discount**moving * _stay(tables, ends, length - moving)
     return total
 
 
@@ -199,41 +190,52 @@ def _moving(tables: _Tables, actions: Ints) -> int:
     length = actions.shape[1]
     moves = np.flatnonzero((actions != tables.stay).any(axis=0))
     moving = int(moves[-1]) + 1 if len(moves) else 1
-    return moving if length - moving > max(table.shape[1] for table in tables.information) else length
+    return moving if length - moving > tables.lessons.most else length
 
 
-def _stay(tables: _Tables, level: _Level, steps: int) -> Floats:
-    """`[6, n]` what so many steps that stay add to the terms, the first of them at weight one."""
-    gains = np.zeros((6, len(level.belief)))
-    seen = level.belief, level.visits, level.reached
-    gains[1:4] = staying_teaches(tables.information, *seen, steps=steps, discount=tables.discount)
-    weight = geometric(tables.discount, steps)
-    gains[4] = weight * (level.belief @ tables.utility)
-    gains[5] = weight * (level.belief @ tables.risk[tables.stay])
+def _roll(tables: _Tables, prefixes: Prefixes) -> _Rolled:
+    """Beliefs rolled forward, one product a level for all actions of all prefixes."""
+    size = len(tables.belief)
+    belief, visits, reached = np.zeros((3, len(prefixes), size))
+    belief[0] = tables.belief
+    level = prefixes.level
+    for t in range(1, len(level) - 1):
+        here, above = slice(level[t], level[t + 1]), level[t - 1]
+        parent, action = prefixes.parent[here], prefixes.action[here]
+        if isinstance(tables.B, Transitions):
+            after = tables.B.predicted(belief[parent], action)
+        else:
+            every = (belief[above : level[t]] @ tables.B).reshape(-1, size)
+            after = every[(parent - above) * (len(every) // (level[t] - above)) + action]
+        belief[here] = after
+        np.add(visits[parent], after, out=visits[here])
+        np.maximum(reached[parent], after, out=reached[here])
+    return _Rolled(belief, visits, reached)
+
+
+def _gains(tables: _Tables, prefixes: Prefixes, rolled: _Rolled) -> Floats:
+    """`[6, N]` what the last step of each prefix adds to the terms, undiscounted."""
+    parent, action = prefixes.parent, prefixes.action
+    expected = rolled.belief @ tables.linear
+    learned = tables.lessons.collected(rolled.visits, rolled.reached)
+    gains = np.empty((6, len(prefixes)))
+    gains[0] = (action != tables.stay) * (_entropy(rolled.belief @ tables.A) - expected[:, 0])
+    gains[1:4] = learned - learned[:, parent]
+    gains[4] = expected[:, 1]
+    gains[5] = expected[parent, 2 + action]
     return gains
 
 
-def _descend(tables: _Tables, level: _Level, parent: Ints, action: Ints) -> tuple[_Level, Floats]:
-    """The next level of the tree, and `[6, n]` what the step to each of its nodes adds to the terms."""
-    before = level.belief[parent]
-    belief = np.empty_like(before)
-    bounds = np.searchsorted(action, np.arange(len(tables.risk) + 1)).tolist()
-    for a in range(len(tables.risk)):
-        if bounds[a] < bounds[a + 1]:
-            here = slice(bounds[a], bounds[a + 1])
-            if isinstance(tables.B, Transitions):
-                belief[here] = tables.B.predicted(before[here], a)
-            else:
-                np.matmul(before[here], tables.B[a], out=belief[here])
-    visits = level.visits[parent] + belief
-    reached = np.maximum(level.reached[parent], belief)
-    learned = collected_information(tables.information, visits, reached)
-    gains = np.empty((6, len(action)))
-    gains[0] = (action != tables.stay) * (_entropy(belief @ tables.A) - belief @ tables.ambiguity)
-    gains[1:4] = learned - level.learned[:, parent]
-    gains[4] = belief @ tables.utility
-    gains[5] = np.einsum("ns,ns->n", before, tables.risk[action])
-    return _Level(belief, visits, reached, learned), gains
+def _stay(tables: _Tables, ends: _Rolled, steps: int) -> Floats:
+    """`[6, P]` what so many steps that stay add to the terms, the first of them at weight one."""
+    gains = np.zeros((6, len(ends.belief)))
+    seen = ends.belief, ends.visits, ends.reached
+    gains[1:4] = staying_teaches(tables.lessons.tables, *seen, steps=steps, discount=tables.discount)
+    expected = ends.belief @ tables.linear
+    weight = geometric(tables.discount, steps)
+    gains[4] = weight * expected[:, 1]
+    gains[5] = weight * expected[:, 2 + tables.stay]
+    return gains
 
 
 def _entropy(mass: Floats) -> Floats:

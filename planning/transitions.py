@@ -32,18 +32,17 @@ class Transitions:
         return places, places, actions
 
     @cached_property
-    def by_action(self) -> Floats:
-        """`[K, R, R]` the dense table as B[a, s, s']: R^2 numbers an action, for few places."""
+    def by_place(self) -> Floats:
+        """`[R, K, R]` the dense table as B[s, a, s']: R^2 numbers an action, for few places."""
         size, actions, _ = self.successors.shape
-        row = np.arange(actions) * size + np.arange(size)[:, None]
-        at = row[..., None] * size + self.successors
+        at = (np.arange(size * actions) * size).reshape(size, actions, 1) + self.successors
         dense = np.bincount(at.ravel(), weights=self.probability.ravel(), minlength=actions * size * size)
-        return dense.astype(np.float64, copy=False).reshape(actions, size, size)
+        return dense.astype(np.float64, copy=False).reshape(size, actions, size)
 
     @property
     def dense(self) -> Floats:
         """`[R, R, K]` the dense table as B[s', s, a]: R^2 numbers an action, for few places."""
-        return self.by_action.transpose(2, 1, 0)
+        return self.by_place.transpose(2, 0, 1)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         return np.array(self.dense, dtype=dtype)
@@ -55,11 +54,13 @@ class Transitions:
         """Of the dense table."""
         return self.dense.argmax(axis=axis).astype(np.int64)
 
-    def predicted(self, belief: Floats, action: int) -> Floats:
-        """`[n, R]` Q'(s') = sum_s B[s', s, a] Q(s) of beliefs `[n, R]`; touches the successors only."""
+    def predicted(self, belief: Floats, action: Ints) -> Floats:
+        """`[n, R]` Q'(s') = sum_s B[s', s, a] Q(s) of beliefs `[n, R]` after actions `[n]`; touches what holds mass."""
         many, size = belief.shape
-        at = np.arange(many)[:, None, None] * size + self.successors[:, action]
-        mass = belief[:, :, None] * self.probability[:, action]
+        row, place = np.nonzero(belief)
+        taken = action[row]
+        at = row[:, None] * size + self.successors[place, taken]
+        mass = belief[row, place][:, None] * self.probability[place, taken]
         after = np.bincount(at.ravel(), weights=mass.ravel(), minlength=many * size)
         return after.astype(np.float64, copy=False).reshape(many, size)
 

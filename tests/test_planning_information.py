@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from cogmap.model.errors import CogmapError
 from cogmap.planning import collected_information, dirichlet_information
-from cogmap.planning.information import interpolated
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
@@ -126,4 +125,3 @@ def test_collected_information_between_integers_beyond_the_table_and_of_nothing(
     visits = np.array([[1.0], [1.5], [50.0], [0.0]])
     reached = np.array([[1.0], [1.0], [1.0], [0.0]])
     np.testing.assert_allclose(collected_information([table], visits, reached)[0], [4, 5, 6, 0])
-    np.testing.assert_allclose(interpolated(table, np.array([[0.5]])), [[2.0]])

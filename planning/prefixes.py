@@ -1,0 +1,53 @@
+"""The prefix tree of some policies: what they share is rolled out once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Prefixes:
+    """The `N` distinct prefixes of some policies, the empty one first, then level by level.
+
+    Attributes:
+        parent: `[N]` the prefix that is one step shorter; the empty one is its own.
+        action: `[N]` the last action; of the empty prefix it means nothing.
+        level: `[L + 2]` where the prefixes of each length begin, and `N`: those of length t are
+            `level[t]` to `level[t + 1] - 1`.
+        of: `[P, L]` the prefix of each policy after each step.
+    """
+
+    parent: Ints
+    action: Ints
+    level: list[int]
+    of: Ints
+
+    def __len__(self) -> int:
+        return len(self.parent)
+
+    @property
+    def length(self) -> Ints:
+        """`[N]` steps of each prefix."""
+        return np.repeat(np.arange(len(self.level) - 1), np.diff(self.level))
+
+
+def prefixes_of(actions: Ints) -> Prefixes:
+    """The prefix tree of policies `[P, L]`, in any order."""
+    order = np.lexsort(actions.T[::-1])
+    rows = actions[order]
+    new = np.ones(rows.shape, dtype=np.bool_)  # a row begins a prefix where it differs from the row before, or has
+    np.logical_or.accumulate(rows[1:] != rows[:-1], axis=1, out=new[1:])
+    level = [0, 1, *(1 + new.sum(axis=0).cumsum()).tolist()]
+    at = new.cumsum(axis=0) + (np.array(level[1:-1]) - 1)
+    depth, row = np.nonzero(new.T)
+    parent = np.zeros(len(row) + 1, dtype=np.int64)
+    parent[1:] = np.where(depth > 0, at[row, depth - 1], 0)
+    action = np.append(0, rows[row, depth])
+    of = np.empty_like(at)
+    of[order] = at
+    return Prefixes(parent, action, level, of)
