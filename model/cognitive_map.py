@@ -189,8 +189,8 @@ class CognitiveMap:
 
     def beyond(self, place: int, action: int) -> int | None:
         """The place that `action` most probably leads to from `place` if it is not blocked; None if none is known."""
-        keys, alpha, _ = self.B_s.concentration(np.array([self.row(place, action)]))
-        others = [(a, -k, k) for k, a in zip(keys[0].tolist(), alpha[0].tolist(), strict=True) if k >= 0 and k != place]
+        alpha = self.B_s.concentrations(self.row(place, action))
+        others = [(a, -k, k) for k, a in alpha.items() if k >= 0 and k != place]
         return max(others)[2] if others else None
 
     def A(self) -> Floats:

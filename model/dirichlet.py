@@ -28,7 +28,8 @@ class SparseDirichlet:
 
     The concentration of an outcome is `background + prior + evidence`. Outcomes without a slot have the
     background alone, times `outcomes` of them. Evidence never falls below zero, so counts never fall below
-    their prior. Appending rows is amortised: storage doubles.
+    their prior. Appending rows is amortised: storage doubles. Prior and evidence of a row, and their sum, are added up
+    when they change, not when they are read.
 
     Attributes:
         background: concentration of every outcome of the domain, whether it has a slot or not.
@@ -36,7 +37,7 @@ class SparseDirichlet:
         journal: of the rows that change, where somebody wants to know.
     """
 
-    __slots__ = ("_evidence", "_keys", "_prior", "_rows", "background", "journal", "outcomes")
+    __slots__ = ("_alpha", "_evidence", "_keys", "_prior", "_rows", "_total", "background", "journal", "outcomes")
 
     def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0) -> None:
         self.background = background
@@ -46,6 +47,8 @@ class SparseDirichlet:
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
         self._evidence: Floats = np.zeros((8, slots))
+        self._alpha: Floats = np.zeros((8, slots))  # prior + evidence
+        self._total: Floats = np.zeros(8)  # of each row of `_alpha`
 
     def __len__(self) -> int:
         return self._rows
@@ -53,7 +56,7 @@ class SparseDirichlet:
     @property
     def nbytes(self) -> int:
         """Bytes of storage in use."""
-        return self._rows * self._keys.shape[1] * 24
+        return self._rows * (self._keys.shape[1] * 32 + 8)
 
     def append(self, rows: int) -> int:
         """Append empty rows; returns the index of the first."""
@@ -66,10 +69,21 @@ class SparseDirichlet:
 
     def shrink(self, rows: int) -> None:
         """Keep the first `rows` rows."""
-        for array, empty in ((self._keys, EMPTY), (self._prior, 0.0), (self._evidence, 0.0)):
-            array[rows : self._rows] = empty
+        self._keys[rows : self._rows] = EMPTY
+        for array in (self._prior, self._evidence, self._alpha, self._total):
+            array[rows : self._rows] = 0.0
         self._rows = rows
         self._changed(None)
+
+    def _add_up(self, rows: Ints | slice) -> None:
+        self._alpha[rows] = self._prior[rows] + self._evidence[rows]
+        self._total[rows] = self._alpha[rows].sum(axis=1)
+
+    def _set(self, row: int, slot: int, *, prior: float, evidence: float) -> None:
+        self._prior[row, slot], self._evidence[row, slot] = prior, evidence
+        self._alpha[row, slot] = prior + evidence
+        self._total[row] = sum(self._alpha[row].tolist())
+        self._changed(row)
 
     def _changed(self, row: int | None) -> None:
         """Note that a row changed; None: any may have."""
@@ -84,6 +98,8 @@ class SparseDirichlet:
         self._keys = _grown(self._keys, (rows, slots), EMPTY).astype(np.int64)
         self._prior = _grown(self._prior, (rows, slots), 0.0).astype(np.float64)
         self._evidence = _grown(self._evidence, (rows, slots), 0.0).astype(np.float64)
+        self._alpha = self._prior + self._evidence
+        self._total = self._alpha.sum(axis=1)
 
     def _slot(self, row: int, key: int) -> int:
         """Slot of `key` in `row`; taken anew where it has none."""
@@ -99,9 +115,8 @@ class SparseDirichlet:
 
     def expect(self, row: int, key: int, prior: float) -> None:
         """Give outcome `key` of `row` a prior of its own."""
-        slot = self._slot(row, key)  # may put larger arrays in place
-        self._prior[row, slot] = prior
-        self._changed(row)
+        slot = self._slot(row, key)
+        self._set(row, slot, prior=prior, evidence=float(self._evidence[row, slot]))
 
     def rename(self, row: int, old: int, new: int) -> None:
         """Let the slot of outcome `old` stand for `new`, with the counts it has.
@@ -122,8 +137,7 @@ class SparseDirichlet:
         slot = self._slot(row, key)
         before = float(self._evidence[row, slot])
         after = min(max(before + amount, 0.0), max(before, most))
-        self._evidence[row, slot] = after
-        self._changed(row)
+        self._set(row, slot, prior=float(self._prior[row, slot]), evidence=after)
         return after - before
 
     def evidence(self, row: int, key: int) -> float:
@@ -138,6 +152,7 @@ class SparseDirichlet:
     def fade(self, rows: Ints | slice, keep: float) -> None:
         """Multiply the evidence of `rows` by `keep`, in [0, 1]: what was learned long ago fades."""
         self._evidence[rows] *= keep
+        self._add_up(rows)
         self._changed(None)
 
     def keys(self, rows: Ints) -> Ints:
@@ -146,7 +161,11 @@ class SparseDirichlet:
 
     def total(self, rows: Ints) -> Floats:
         """`[n]` counts of `rows` in all, background left out."""
-        return (self._prior[rows] + self._evidence[rows]).sum(axis=1)
+        return self._total[rows]
+
+    def concentrations(self, row: int) -> dict[int, float]:
+        """Prior and evidence of `row` by outcome, background left out."""
+        return dict(zip(self._keys[row].tolist(), self._alpha[row].tolist(), strict=True))
 
     def concentration(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
         """Counts of `rows`.
@@ -155,8 +174,7 @@ class SparseDirichlet:
             keys `[n, slots]` (`EMPTY` where unused), concentrations `[n, slots]` (zero where unused), and
             the number of outcomes without a slot, `[n]`, each of concentration `background`.
         """
-        keys = self._keys[rows]
-        alpha = self._prior[rows] + self._evidence[rows]
+        keys, alpha = self._keys[rows], self._alpha[rows]
         used = keys != EMPTY
         if self.background:
             alpha += self.background * used
@@ -167,22 +185,25 @@ class SparseDirichlet:
 
         A row that has no counts at all gives zero to every outcome.
         """
+        keys, p, mass = self._keys[rows], self._alpha[rows], self._mass(rows)
         if self.background:
-            keys, alpha, others = self.concentration(rows)
-            total = alpha.sum(axis=1) + self.background * others
-        else:
-            keys, alpha = self._keys[rows], self._prior[rows] + self._evidence[rows]
-            total = alpha.sum(axis=1)
-        total = np.where(total > 0.0, total, 1.0)
-        return keys, alpha / total[:, None], self.background / total
+            p += self.background * (keys != EMPTY)
+        p /= mass[:, None]
+        return keys, p, self.background / mass
 
     def probability(self, key: int | Ints, rows: Ints) -> Floats:
         """Expected probability `[n]` of outcome `key` (one, or one a row) in `rows`."""
-        keys, p, other = self.mean(rows)
-        match = keys == np.reshape(key, (-1, 1))
-        if not self.background:
-            return (p * match).sum(axis=1)
-        return np.where(match.any(axis=1), (p * match).sum(axis=1), other)
+        match = self._keys[rows] == (key if isinstance(key, int) else np.reshape(key, (-1, 1)))
+        alpha = np.einsum("ns,ns->n", self._alpha[rows], match)
+        return (alpha + self.background) / self._mass(rows)
+
+    def _mass(self, rows: Ints) -> Floats:
+        """`[n]` concentrations of `rows` in all; one where there are none."""
+        if self.background:
+            return self._total[rows] + self.background * self.outcomes
+        mass = self._total[rows]
+        mass[mass == 0.0] = 1.0
+        return mass
 
     def dense(self, outcomes: int) -> Floats:
         """Expected probabilities `[outcomes + 1, rows]`; the last line is everything not among the first ones."""
@@ -208,4 +229,6 @@ class SparseDirichlet:
         self._prior = state["prior"].astype(np.float64)
         self._evidence = state["evidence"].astype(np.float64)
         self._rows = self._keys.shape[0]
+        self._alpha = self._prior + self._evidence
+        self._total = self._alpha.sum(axis=1)
         self._changed(None)

@@ -195,7 +195,7 @@ def test_storage_grows_with_rows_and_outcomes() -> None:
         table.add(99, key, key + 1.0)
     assert [table.evidence(99, key) for key in range(9)] == [key + 1.0 for key in range(9)]
     assert table.evidence(0, 0) == 0.0
-    assert table.nbytes == 100 * 16 * 24
+    assert table.nbytes == 100 * (16 * 32 + 8)
 
 
 def test_rename_keeps_the_counts_and_refuses_a_taken_name() -> None:
