@@ -23,6 +23,7 @@ from ..model.motions import Motions, MotionSpec
 from ..model.slices import Slice, take_slice, window_graph
 from ..planning import Plan, plan
 from ..planning.horizon import Preferences, cut_reach
+from ..planning.outlook import Outlook
 from .mapper import Mapper
 from .past import past_state, restore_past, restore_rivals, rivals_state
 from .perception import perceive
@@ -65,7 +66,7 @@ class Agent:
         self.map = CognitiveMap(Motions.of(motions), priors=self.settings.priors)
         self.trace: list[StepRecord] = []
         self._rng = _generator(seed)
-        self._mapper = Mapper(self.map, self.settings)
+        self._mapper, self._outlook = Mapper(self.map, self.settings), Outlook(self.map, self.settings.look_ahead)
         self._window: deque[Slice] = deque(maxlen=self.settings.window + 1)
         self._pending = 0
         self._belief: Belief | None = None
@@ -217,7 +218,7 @@ class Agent:
         agent.map = CognitiveMap(Motions.of(motions), priors=agent.settings.priors)
         labels = ([decode(label) for label in header[name]] for name in ("sights", "positions"))
         restore_map(agent.map, arrays, *labels)
-        agent._mapper = Mapper(agent.map, agent.settings)
+        agent._mapper, agent._outlook = Mapper(agent.map, agent.settings), Outlook(agent.map, agent.settings.look_ahead)
         agent._goals = {decode(label): value for label, value in header["goals"]}
         agent._goal_places = dict(header["goal_places"])
         agent._steps, agent._pending, agent._action = header["steps"], header["pending"], header["action"]
@@ -330,6 +331,7 @@ class Agent:
             preferences=self._preferences(wishes),
             discount=settings.discount,
             information_weight=settings.information_weight,
+            outlook=self._outlook,
         )
         return plan(
             reach,

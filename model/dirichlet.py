@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf
+from weakref import WeakSet
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,15 +35,14 @@ class SparseDirichlet:
     Attributes:
         background: concentration of every outcome of the domain, whether it has a slot or not.
         outcomes: size of the domain; matters only where `background` is positive.
-        journal: of the rows that change, where somebody wants to know.
     """
 
-    __slots__ = ("_alpha", "_evidence", "_keys", "_prior", "_rows", "_total", "background", "journal", "outcomes")
+    __slots__ = ("_alpha", "_evidence", "_keys", "_prior", "_rows", "_total", "_watches", "background", "outcomes")
 
     def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0) -> None:
         self.background = background
         self.outcomes = outcomes
-        self.journal: Journal | None = None
+        self._watches: WeakSet[Journal] = WeakSet()
         self._rows = 0
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
@@ -87,12 +87,17 @@ class SparseDirichlet:
 
     def _changed(self, row: int | None) -> None:
         """Note that a row changed; None: any may have."""
-        if self.journal is None:
-            return
-        if row is None:
-            self.journal.note_all()
-        else:
-            self.journal.note(row)
+        for journal in self._watches:
+            if row is None:
+                journal.note_all()
+            else:
+                journal.note(row)
+
+    def watch(self) -> Journal:
+        """A journal of the rows that change from now on, kept for as long as somebody holds it."""
+        journal = Journal()
+        self._watches.add(journal)
+        return journal
 
     def _resize(self, rows: int, slots: int) -> None:
         self._keys = _grown(self._keys, (rows, slots), EMPTY).astype(np.int64)
@@ -128,7 +133,7 @@ class SparseDirichlet:
             raise CogmapError(f"table: outcome {new} of row {row} has counts already; rename to an outcome without")
         slot = self._slot(row, old)  # may put larger arrays in place
         self._keys[row, slot] = new
-        self._changed(None)
+        self._changed(row)
 
     def add(self, row: int, key: int, amount: float, *, most: float = inf) -> float:
         """Add evidence (negative takes away) for `key` in `row`, `most` in all; returns what was really added."""
@@ -155,7 +160,7 @@ class SparseDirichlet:
         self._add_up(rows)
         self._changed(None)
 
-    def keys(self, rows: Ints) -> Ints:
+    def keys(self, rows: Ints | slice) -> Ints:
         """`[n, slots]` outcomes that have a slot in `rows` (`EMPTY` where unused)."""
         return self._keys[rows]
 

@@ -9,13 +9,13 @@ MOST = 1000
 class Journal:
     """The rows that changed since it was last read; at first, any may have."""
 
-    __slots__ = ("_rows",)
+    __slots__ = ("__weakref__", "_rows")
 
     def __init__(self) -> None:
         self._rows: list[int] | None = None
 
     def note(self, row: int) -> None:
-        """Counts of one row changed, or it got a slot."""
+        """Counts of one row changed, or one of its slots got a name."""
         if self._rows is not None:
             self._rows.append(row)
             if len(self._rows) > MOST:

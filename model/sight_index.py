@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from .column import Column
 from .dirichlet import EMPTY
-from .journal import Journal
 
 if TYPE_CHECKING:
     from .cognitive_map import CognitiveMap
@@ -24,14 +23,14 @@ class SightIndex:
     """Which visited places may show a sight; brought up to date from the journal of A_o when it is asked.
 
     Args:
-        map_: whose `A_o` gets a journal.
+        map_: whose `A_o` is watched; its slots are never renamed.
     """
 
     __slots__ = ("_journal", "_listed", "_map", "_places", "_unsettled")
 
     def __init__(self, map_: CognitiveMap) -> None:
         self._map = map_
-        self._journal = map_.A_o.journal = Journal()
+        self._journal = map_.A_o.watch()
         self._places: dict[int, Column] = {}
         self._listed = Column(np.int64)  # how many slots of a place are in `_places`, in the order of visits
         self._unsettled: set[int] = set()

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..model.cognitive_map import ELSEWHERE, CognitiveMap
 from ..model.dirichlet import EMPTY
-from .information import dirichlet_information
+from ..model.distinct import distinct
+from .outlook import Doors, Outlook
 from .reach import Floats, Ints, Reach
-from .surroundings import successors, surroundings
-from .transitions import Transitions, likeliest
+from .surroundings import surroundings
+from .transitions import Transitions
 
 MOST = 32
 """Places that the agent may be at from which a plan sets out, at most; belief in others is dropped, and counted."""
@@ -68,33 +69,31 @@ def cut_reach(
     preferences: Preferences,
     discount: float = 1.0,
     information_weight: float = 1.0,
+    outlook: Outlook | None = None,
 ) -> Reach:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
     Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
     nearest places that are. Of a belief over more than `MOST` places the likeliest remain (see `Reach.dropped`).
+    What an `outlook` of the map has kept from the last step is not worked out again.
     """
+    outlook = outlook or Outlook(map_, look_ahead)
+    outlook.refresh()
     places, belief, dropped = _likeliest_starts(places, belief)
-    within = surroundings(
-        map_,
-        places,
-        look_ahead,
-        partial(_promising, map_, preferences),
-        hopeful=preferences.known or len(map_.visited_places) < len(map_.places),
-    )
+    hopeful = preferences.known or len(map_.visited_places) < len(map_.places)
+    within = surroundings(map_, outlook, places, look_ahead, partial(_promising, map_, preferences), hopeful=hopeful)
+    R, at = len(within), within.searchsorted(places)
     local = np.append(within, ELSEWHERE)
-    at = np.searchsorted(within, places)
-    q = np.zeros(len(local))
+    q = np.zeros(R + 1)
     q[at] = belief
     A, multiplicity, log_C = _sights(map_, within, preferences)
     log_C_place = preferences.log_C_place(local)
-    keys, alpha = successors(map_, within)
-    after, p = _sensed(within, keys, alpha, at, open_)
-    sights = _sight_information(map_, within, look_ahead)
-    transition_information = np.zeros((len(local), look_ahead + 1))
-    transition_information[:-1] = (_information(alpha, look_ahead) * _untold(map_, within, keys)[..., None]).sum(axis=1)
-    position_information = np.zeros((len(local), look_ahead + 1))
-    position_information[:-1] = _information(map_.A_p.concentration(within)[1], look_ahead)
+    doors, of_doors = outlook.doors(within)
+    _sense(doors, within, at, open_)
+    of_sights, of_positions = outlook.sights(within)
+    nothing = np.zeros((1, look_ahead + 1))
+    of_sights = np.concatenate([of_sights[:, : look_ahead + 1], outlook.unseen()[None, : look_ahead + 1]])
+    B, successor, collision = _ways(within, doors, map_.motions.stay)
     return Reach(
         motions=map_.motions,
         look_ahead=look_ahead,
@@ -104,16 +103,14 @@ def cut_reach(
         multiplicity=multiplicity,
         log_C=log_C,
         log_C_place=log_C_place,
-        B=_local_B(within, after, p),
-        collision=_collision(within, after, p, map_.motions.stay),
+        B=B,
+        collision=collision,
         collision_cost=preferences.collision_cost,
-        sight_information=sights,
-        position_information=position_information,
-        transition_information=transition_information,
-        successor=_successor(within, after, p, map_.motions.stay),
-        promise=information_weight * sights[:, 1]
-        + np.maximum(log_C @ A - (log_C @ multiplicity) / multiplicity.sum(), 0.0)
-        + np.maximum(log_C_place, 0.0),
+        sight_information=of_sights,
+        position_information=np.concatenate([of_positions[:, : look_ahead + 1], nothing]),
+        transition_information=np.concatenate([of_doors[:, : look_ahead + 1], nothing]),
+        successor=successor,
+        promise=information_weight * of_sights[:, 1] + _hope(A, multiplicity, log_C) + np.maximum(log_C_place, 0.0),
         discount=discount,
         information_weight=information_weight,
         dropped=dropped,
@@ -143,107 +140,66 @@ def _sights(map_: CognitiveMap, places: Ints, preferences: Preferences) -> tuple
     """A over the outcomes that places in reach (or preferences) tell apart, and one row for all the rest."""
     keys, p, other = map_.A_o.mean(places)
     preferred, log_preferred, log_other = preferences.log_C(map_.A_o.outcomes)
-    outcomes = np.union1d(keys[keys >= 0], preferred)
-    rest = map_.A_o.outcomes - len(outcomes)
-    A = np.empty((len(outcomes) + 1, len(places) + 1))
-    A[:-1, :-1] = other
     row, slot = np.nonzero(keys >= 0)
-    A[np.searchsorted(outcomes, keys[row, slot]), row] = p[row, slot]
-    A[-1, :-1] = other * rest
-    A[:-1, -1] = 1.0 / map_.A_o.outcomes
-    A[-1, -1] = rest / map_.A_o.outcomes
-    log_C = np.full(len(outcomes) + 1, log_other)
-    log_C[np.searchsorted(outcomes, preferred)] = log_preferred
-    multiplicity = np.append(np.ones(len(outcomes)), float(rest))
+    outcomes, index = distinct(np.concatenate([keys[row, slot], preferred]))
+    told, total = len(outcomes), map_.A_o.outcomes
+    rest = total - told
+    A = np.full((told + 1, len(places) + 1), 1.0 / total)
+    A[:, :-1] = other
+    A[index[: len(row)], row] = p[row, slot]
+    A[-1] *= rest
+    log_C = np.full(told + 1, log_other)
+    log_C[index[len(row) :]] = log_preferred
+    multiplicity = np.ones(told + 1)
+    multiplicity[-1] = rest
     return (A, multiplicity, log_C) if rest else (A[:-1], multiplicity[:-1], log_C[:-1])
 
 
-def _sensed(places: Ints, keys: Ints, alpha: Floats, sensing: Ints, open_: Sequence[bool]) -> tuple[Ints, Floats]:
-    """Successors and probabilities, `[R, K, slots]`; the doors of `sensing` are as they are sensed now."""
-    keys, p = keys.copy(), alpha / alpha.sum(axis=2, keepdims=True)
-    for i in sensing.tolist():
-        for action, is_open in enumerate(open_):
-            after, mass = keys[i, action], p[i, action]
-            if not is_open:
-                after[0], mass[:], mass[0] = places[i], 0.0, 1.0
-                after[1:] = EMPTY
-            elif mass[after == places[i]].sum() < 1.0:
-                mass[after == places[i]] = 0.0
-                mass /= mass.sum()
-    return keys, p
+def _hope(A: Floats, multiplicity: Floats, log_C: Floats) -> Floats | float:
+    """`[R + 1]` by how much the sights of a place are preferred over any."""
+    if not log_C.any():
+        return 0.0
+    return np.maximum(log_C @ A - (log_C @ multiplicity) / multiplicity.sum(), 0.0)
+
+
+def _sense(doors: Doors, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:
+    """Let the doors of `sensing` be as they are sensed now: shut, or not the place itself beyond."""
+    here = places[sensing]
+    is_open = np.array(open_, dtype=np.bool_)
+    keys, p = doors.successors[sensing], doors.probability[sensing]
+    own = keys == here[:, None, None]
+    beyond = (p * ~own).sum(axis=2, keepdims=True)
+    p = np.where(own & (beyond > 0.0), 0.0, p / np.where(beyond > 0.0, beyond, 1.0))
+    keys[:, ~is_open], p[:, ~is_open] = EMPTY, 0.0
+    keys[:, ~is_open, 0], p[:, ~is_open, 0] = here[:, None], 1.0
+    sensed = Doors.of(here, keys, p)
+    for name in Doors.__slots__:
+        getattr(doors, name)[sensing] = getattr(sensed, name)
+
+
+def _ways(places: Ints, doors: Doors, stay: int) -> tuple[Transitions, Ints, Floats]:
+    """B, the likeliest successors and P(blocked), over `places` and, last, everywhere never imagined."""
+    size, actions, slots = doors.successors.shape
+    at = _local(places, np.concatenate([doors.successors, doors.likely[:, :, None]], axis=2))
+    successors = np.full((size + 1, actions, slots), size)
+    probability = np.zeros((size + 1, actions, slots))
+    successors[:-1], probability[:-1], probability[-1, :, 0] = at[:, :, :-1], doors.probability, 1.0
+    successor = np.full((size + 1, actions), -1)
+    successor[:-1] = np.where(doors.likely >= 0, at[:, :, -1], -1)
+    successor[:-1, stay] = np.arange(size)
+    collision = np.zeros((size + 1, actions))
+    collision[:-1] = doors.blocked
+    collision[:, stay] = 0.0
+    return Transitions(successors, probability), successor, collision
 
 
 def _local(places: Ints, keys: Ints) -> Ints:
-    """Places of the map by their index in reach, `len(places)` for one never imagined.
+    """`[R, ...]` places of the map by their index in reach, `R` for one never imagined.
 
     One that is out of reach becomes the place that leads to it (the first axis): no policy is meant to go there.
     """
     size = len(places)
-    here = np.arange(size).reshape(-1, *(1,) * (keys.ndim - 1))
-    at = np.searchsorted(places, keys)
+    at = places.searchsorted(keys)
     at[at == size] = 0
+    here = np.arange(size).reshape(-1, *(1,) * (keys.ndim - 1))
     return np.where(places[at] == keys, at, np.where(keys == ELSEWHERE, size, here))
-
-
-def _local_B(places: Ints, keys: Ints, p: Floats) -> Transitions:
-    """B over `places` and, last, everywhere never imagined, which nothing leaves."""
-    size, actions, slots = keys.shape
-    successors = np.full((size + 1, actions, slots), size)
-    probability = np.zeros((size + 1, actions, slots))
-    successors[:size], probability[:size], probability[size, :, 0] = _local(places, keys), p, 1.0
-    return Transitions(successors, probability)
-
-
-def _collision(places: Ints, keys: Ints, p: Floats, stay: int) -> Floats:
-    """`[R + 1, K]` P(staying | s, a), zero for `stay` and in the last row."""
-    collision = np.zeros((len(places) + 1, keys.shape[1]))
-    collision[:-1] = (p * (keys == places[:, None, None])).sum(axis=2)
-    collision[:, stay] = 0.0
-    return collision
-
-
-def _untold(map_: CognitiveMap, places: Ints, keys: Ints) -> NDArray[np.bool_]:
-    """`[R, K]` whether a look at a door can teach: not where a visit has shown all it can, and no place lies beyond."""
-    return ~(map_.visited[places][:, None] & (keys == ELSEWHERE).any(axis=2))
-
-
-def _successor(places: Ints, keys: Ints, p: Floats, stay: int) -> Ints:
-    """`[R + 1, K]` the likeliest place besides the place itself; the place itself where that is out of reach."""
-    successor = np.full((len(places) + 1, keys.shape[1]), -1)
-    likely = likeliest(keys, p, places, ELSEWHERE)
-    successor[:-1] = np.where(likely >= 0, _local(places, likely), -1)
-    successor[:-1, stay] = np.arange(len(places))
-    return successor
-
-
-def _sight_information(map_: CognitiveMap, places: Ints, steps: int) -> Floats:
-    """`[R + 1, steps + 1]` for A_o; the last row, for elsewhere, is that of a place never seen."""
-    keys, alpha, others = map_.A_o.concentration(places)
-    background = map_.A_o.background
-    alpha = np.column_stack([alpha, np.full(len(places), background)])
-    many = np.column_stack([np.ones_like(keys, dtype=np.float64), others])
-    fresh = np.zeros((1, alpha.shape[1]))
-    fresh[0, -1] = background
-    fresh_many = np.ones_like(fresh)
-    fresh_many[0, -1] = map_.A_o.outcomes
-    return _information(np.vstack([alpha, fresh]), steps, np.vstack([many, fresh_many]))
-
-
-def _information(alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:
-    """`dirichlet_information` of `[..., O]` concentrations; rows met before are looked up."""
-    outcomes = alpha.shape[-1]
-    rows = alpha.reshape(-1, outcomes)
-    many = np.ones_like(rows) if multiplicity is None else multiplicity.reshape(rows.shape)
-    packed = np.hstack([rows, many]).tobytes()
-    width = 16 * outcomes
-    table = [_row_information(packed[i : i + width], steps) for i in range(0, len(packed), width)]
-    return np.array(table).reshape(*alpha.shape[:-1], steps + 1)
-
-
-@lru_cache(maxsize=1 << 14)
-def _row_information(packed: bytes, steps: int) -> Floats:
-    """One row: its concentrations, then their multiplicities."""
-    alpha, many = np.frombuffer(packed).reshape(2, -1)
-    if (many[alpha > 0.0]).sum() <= 1.0:  # one outcome teaches nothing
-        return np.zeros(steps + 1)
-    return dirichlet_information(alpha, steps, multiplicity=many)

@@ -7,8 +7,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.cognitive_map import ELSEWHERE, CognitiveMap
-from .transitions import Floats, Ints, likeliest
+from ..model.cognitive_map import CognitiveMap
+from .outlook import Outlook
+from .transitions import Ints
 
 FAR = 8
 """Promising places beyond the look-ahead that a plan takes in, at most."""
@@ -17,7 +18,13 @@ Promising = Callable[[Ints], NDArray[np.bool_]]
 
 
 def surroundings(
-    map_: CognitiveMap, places: Ints, look_ahead: int, promising: Promising, *, hopeful: bool = True
+    map_: CognitiveMap,
+    outlook: Outlook,
+    places: Ints,
+    look_ahead: int,
+    promising: Promising,
+    *,
+    hopeful: bool = True,
 ) -> Ints:
     """Places that a plan takes in, ascending.
 
@@ -27,31 +34,22 @@ def surroundings(
     near = _ball(map_, places, look_ahead)
     if not hopeful or promising(near).any():
         return near
-    return np.union1d(near, _ways(map_, places, promising))
-
-
-def successors(map_: CognitiveMap, places: Ints) -> tuple[Ints, Floats]:
-    """Successors and concentrations, `[n, K, slots]`, of every action in every place."""
-    size = len(map_.motions)
-    keys, alpha, _ = map_.B_s.concentration((places[:, None] * size + np.arange(size)).ravel())
-    return keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
+    return np.union1d(near, _ways(outlook, places, promising))
 
 
 def _ball(map_: CognitiveMap, places: Ints, look_ahead: int) -> Ints:
     """Places within `look_ahead` steps, however improbable, ascending."""
-    actions = np.arange(len(map_.motions))
-    known = set(places.tolist())
-    frontier = list(known)
+    size, keys = len(map_.motions), map_.B_s.keys
+    frontier = places.tolist()
+    known = set(frontier)
     for _ in range(look_ahead):
-        if not frontier:
-            break
-        rows = (np.array(frontier)[:, None] * len(actions) + actions).ravel()
-        frontier = [place for place in set(map_.B_s.keys(rows).ravel().tolist()) - known if place >= 0]
+        ahead = {after for place in frontier for after in keys(slice(place * size, (place + 1) * size)).ravel().tolist()}
+        frontier = [place for place in ahead - known if place >= 0]
         known.update(frontier)
     return np.array(sorted(known), dtype=np.int64)
 
 
-def _ways(map_: CognitiveMap, places: Ints, promising: Promising) -> Ints:
+def _ways(outlook: Outlook, places: Ints, promising: Promising) -> Ints:
     """The places on the shortest likely ways to the nearest promising places."""
     parent: dict[int, int] = {place: place for place in places.tolist()}
     frontier = list(parent)
@@ -59,17 +57,14 @@ def _ways(map_: CognitiveMap, places: Ints, promising: Promising) -> Ints:
         found = np.flatnonzero(promising(np.array(frontier)))[:FAR].tolist()
         if found:
             return _traced(parent, [frontier[i] for i in found])
-        frontier = _next(map_, frontier, parent)
+        frontier = _next(outlook, frontier, parent)
     return places[:0]
 
 
-def _next(map_: CognitiveMap, frontier: list[int], parent: dict[int, int]) -> list[int]:
+def _next(outlook: Outlook, frontier: list[int], parent: dict[int, int]) -> list[int]:
     """The places one likely step further, in the order in which they are met; enters their parents."""
-    places = np.array(frontier)
-    keys, alpha = successors(map_, places)
     reached: list[int] = []
-    ways = likeliest(keys, alpha, places, ELSEWHERE).tolist()
-    for place, row in zip(frontier, ways, strict=True):
+    for place, row in zip(frontier, outlook.ways(np.array(frontier)).tolist(), strict=True):
         for after in row:
             if after >= 0 and after not in parent:
                 parent[after] = place

@@ -15,8 +15,7 @@ SIGHTS = 4
 
 def assert_index_is_right(map_: CognitiveMap) -> None:
     """What is not listed is below the bound, and a new index lists the same."""
-    journal, fresh = map_.A_o.journal, SightIndex(map_)
-    map_.A_o.journal = journal
+    fresh = SightIndex(map_)
     for sight in range(len(map_.sights)):
         listed, bound = map_.visited_with(sight)
         assert len(set(listed.tolist())) == len(listed)

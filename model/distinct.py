@@ -1,0 +1,19 @@
+"""Which numbers there are, for arrays so short that the bookkeeping of `np.unique` outweighs the sorting."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.int64]
+
+
+def distinct(values: Ints) -> tuple[Ints, Ints]:
+    """The distinct values, ascending, and `[n]` the index of each value among them."""
+    order = values.argsort(kind="stable")
+    ordered = values[order]
+    first = np.ones(len(values), dtype=np.bool_)
+    np.not_equal(ordered[1:], ordered[:-1], out=first[1:])
+    index = np.empty(len(values), dtype=np.int64)
+    index[order] = first.cumsum() - 1
+    return ordered[first], index

@@ -1,0 +1,131 @@
+"""What plans read of each place of a map, kept from step to step until the map has changed there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.cognitive_map import ELSEWHERE, CognitiveMap
+from .information import dirichlet_information
+from .kept import Kept
+from .transitions import Floats, Ints, likeliest
+
+
+@dataclass(frozen=True, slots=True)
+class Doors:
+    """The doors of `n` places.
+
+    Attributes:
+        successors: `[n, K, slots]` where each action may lead to.
+        probability: `[n, K, slots]` of each, zero where a slot is unused.
+        likely: `[n, K]` where it most probably leads to besides the place itself; see `likeliest`.
+        blocked: `[n, K]` P(staying | s, a).
+    """
+
+    successors: Ints
+    probability: Floats
+    likely: Ints
+    blocked: Floats
+
+    @classmethod
+    def of(cls, places: Ints, successors: Ints, probability: Floats) -> Doors:
+        """The doors that have these successors."""
+        own = successors == places[:, None, None]
+        likely = likeliest(successors, probability, places, ELSEWHERE)
+        return cls(successors, probability, likely, np.einsum("nks,nks->nk", probability, own))
+
+
+class Outlook:
+    """What plans read of the places of one map. Costs what has changed and what is asked for.
+
+    Args:
+        map_: the map.
+        steps: visits, at most, that plans ask the information of: N.
+    """
+
+    __slots__ = ("_doors", "_map", "_outcomes", "_sights", "_visits", "_watches", "steps")
+
+    def __init__(self, map_: CognitiveMap, steps: int) -> None:
+        self.steps = steps
+        self._map = map_
+        self._doors, self._sights = Kept(self._new_doors), Kept(self._new_sights)
+        self._watches = map_.A_o.watch(), map_.A_p.watch(), map_.B_s.watch()
+        self._outcomes = self._visits = 0
+
+    @property
+    def nbytes(self) -> int:
+        """Bytes of storage."""
+        return self._doors.nbytes + self._sights.nbytes
+
+    def refresh(self) -> None:
+        """Forget what has changed since the last call."""
+        of_sights, of_positions, of_doors = (watch.take() for watch in self._watches)
+        for changed in (of_sights, of_positions):
+            self._sights.forget(None if changed is None else np.array(changed, dtype=np.int64))
+        if self._map.A_o.outcomes != self._outcomes:
+            self._sights.forget()
+            self._outcomes = self._map.A_o.outcomes
+        visits, size = self._map.visited_places, len(self._map.motions)
+        if of_doors is None:
+            self._doors.forget()
+        else:
+            self._doors.forget(np.append(np.array(of_doors, dtype=np.int64) // size, visits[self._visits :]))
+        self._visits = len(visits)
+
+    def doors(self, places: Ints) -> tuple[Doors, Floats]:
+        """The doors of `places`, and what looks at them teach of B_s: `[n, N + 1]` nats."""
+        successors, probability, likely, blocked, information = self._doors.rows(places)
+        return Doors(successors, probability, likely, blocked), information
+
+    def ways(self, places: Ints) -> Ints:
+        """`[n, K]` where each action most probably leads to; -1 where that is nowhere else, or not known."""
+        return self._doors.rows(places)[2]
+
+    def sights(self, places: Ints) -> tuple[Floats, Floats]:
+        """What visits teach of A_o and of A_p, `[n, N + 1]` nats each."""
+        of_sights, of_positions = self._sights.rows(places)
+        return of_sights, of_positions
+
+    def _new_doors(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
+        size = len(self._map.motions)
+        keys, alpha, _ = self._map.B_s.concentration((places[:, None] * size + np.arange(size)).ravel())
+        keys, alpha = keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
+        doors = Doors.of(places, keys, alpha / alpha.sum(axis=2, keepdims=True))
+        # a look teaches nothing where a visit has shown all it can, and no place lies beyond
+        told = self._map.visited[places][:, None] & (keys == ELSEWHERE).any(axis=2)
+        information = (_information(alpha, self.steps) * ~told[..., None]).sum(axis=1)
+        return doors.successors, doors.probability, doors.likely, doors.blocked, information
+
+    def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
+        _, alpha, others = self._map.A_o.concentration(places)
+        alpha = np.column_stack([alpha, np.full(len(places), self._map.A_o.background)])
+        many = np.ones_like(alpha)
+        many[:, -1] = others
+        of_positions = _information(self._map.A_p.concentration(places)[1], self.steps)
+        return _information(alpha, self.steps, many), of_positions
+
+    def unseen(self) -> Floats:
+        """`[N + 1]` what visits teach of A_o in a place never imagined."""
+        return _row_information(np.array([self._map.A_o.background, self._map.A_o.outcomes]).tobytes(), self.steps)
+
+
+def _information(alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:
+    """`dirichlet_information` of `[..., O]` concentrations; rows met before are looked up."""
+    outcomes = alpha.shape[-1]
+    many = np.ones_like(alpha) if multiplicity is None else multiplicity
+    packed = np.concatenate([alpha, many], axis=-1).tobytes()
+    width = 16 * outcomes
+    table = [_row_information(packed[i : i + width], steps) for i in range(0, len(packed), width)]
+    return np.array(table).reshape(*alpha.shape[:-1], steps + 1)
+
+
+@lru_cache(maxsize=1 << 14)
+def _row_information(packed: bytes, steps: int) -> Floats:
+    """One row: its concentrations, then their multiplicities."""
+    alpha, many = np.frombuffer(packed).reshape(2, -1)
+    if (many[alpha > 0.0]).sum() <= 1.0:  # one outcome teaches nothing
+        return np.zeros(steps + 1)
+    return dirichlet_information(alpha, steps, multiplicity=many)
