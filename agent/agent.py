@@ -256,12 +256,14 @@ class Agent:
         rivals = advance_rivals(
             self.map, self._rivals, self.belief, evidence, displacement=self.settings.filter.displacement
         )
-        rivals = rivals.kept(rivals.since >= mapper.remembered)
         self._retracted = None
-        if len(rivals) and rivals.probability(rivals.best) >= DECISIVE:
-            self._change_mind(rivals, evidence)
-            return
-        belief = self._belief = replace(self.belief, doubt=rivals.doubt)
+        if len(rivals):
+            rivals = rivals.kept(rivals.since >= mapper.remembered)
+            if len(rivals) and rivals.probability(rivals.best) >= DECISIVE:
+                self._change_mind(rivals, evidence)
+                return
+            self._belief = replace(self.belief, doubt=rivals.doubt)
+        belief = self.belief
         if self.certain and not self.map.visited[belief.place]:
             self._rivals = rivals.joined(rivals_of(self.map, belief, step=self._steps, visits=mapper.visits_before))
             self._belief = belief.committed()

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.cognitive_map import CognitiveMap
+from ..model.distinct import distinct
 from ..model.slices import found_shut
 from .message import Belief, Evidence, FilterOptions, Message
 
@@ -41,6 +42,11 @@ class _Candidates:
     source: Ints
     told: Floats
     like: Floats
+
+    def joined(self, others: _Candidates) -> _Candidates:
+        """These, then the others."""
+        pairs = ((getattr(self, name), getattr(others, name)) for name in self.__slots__)
+        return _Candidates(*(np.concatenate(pair) for pair in pairs))
 
     @property
     def most(self) -> float:
@@ -80,17 +86,15 @@ def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: Fil
     if action == map_.motions.stay:
         moves = 1.0
     ahead = map_.position_beyond[message.positions, action]
-    n, slots = keys.shape
-    places = np.concatenate([keys.ravel(), keys.ravel()])
-    positions = np.repeat(np.concatenate([ahead, message.positions]), slots)
     told = found_shut(map_, message.places, keys, p, action, evidence.open, slip=1.0 - moves)
-    weight = (message.mass[:, None] * p).ravel()
-    weight = np.concatenate([weight * moves, weight * (1.0 - moves)]) * (1.0 - options.displacement)
-    source, told = np.tile(np.repeat(np.arange(n), slots), 2), np.tile(told.ravel(), 2)
-    real = (places >= 0) & (positions >= 0) & (weight > 0.0)
-    places, positions, weight, source, told = (x[real] for x in (places, positions, weight, source, told))
-    weight = weight * map_.A_p.probability(positions, places)
-    fits = weight > 0.0
+    p = p * (message.mass[:, None] * (1.0 - options.displacement))
+    source, slot = np.nonzero((keys >= 0) & (p > 0.0))
+    places, p, told = keys[source, slot], p[source, slot], told[source, slot]
+    places, source, told = (np.concatenate([x, x]) for x in (places, source, told))
+    many = len(p)
+    positions = np.concatenate([ahead[source[:many]], message.positions[source[many:]]])
+    weight = np.concatenate([p * moves, p * (1.0 - moves)]) * map_.A_p.probability(positions, places)
+    fits = np.flatnonzero((positions >= 0) & (weight > 0.0))
     places = places[fits]
     like = likelihood(map_, places, evidence.sight, evidence.open)
     return _Candidates(places, positions[fits], weight[fits], source[fits], told[fits], like)
@@ -103,7 +107,10 @@ def _displaced(
 
     Left out are only places of which neither the belief nor its rivals would hear: most have never shown the sight.
     """
-    visited, (listed, bound) = map_.visited_places, map_.visited_with(evidence.sight)
+    visited = map_.visited_places
+    if len(visited) <= FEW:
+        return _put_into(map_, visited, evidence, options), 0.0
+    listed, bound = map_.visited_with(evidence.sight)
     entered = walked.places[map_.visited[walked.places]]
     if 2 * len(listed) + FEW < len(visited):
         places = np.union1d(listed, entered)
@@ -137,16 +144,13 @@ def _update(
     *,
     left_out: float = 0.0,
 ) -> Belief:
-    parts = [walked] if displaced is None else [walked, displaced]
-    places = np.concatenate([part.places for part in parts])
-    positions = np.concatenate([part.positions for part in parts])
-    weight = np.concatenate([part.weight for part in parts])
-    told = weight * np.concatenate([part.told for part in parts])
-    pairs, pair = np.unique(places * len(map_.positions) + positions, return_inverse=True)
+    all_ = walked if displaced is None else walked.joined(displaced)
+    pairs, pair = distinct(all_.places * len(map_.positions) + all_.positions)
     pair_places, pair_positions = np.divmod(pairs, len(map_.positions))
-    predicted = np.bincount(pair, weights=weight, minlength=len(pairs))
+    predicted = np.bincount(pair, weights=all_.weight, minlength=len(pairs))
+    told = all_.weight * all_.told
     like = np.zeros(len(pairs))
-    like[pair] = np.concatenate([part.like for part in parts])
+    like[pair] = all_.like
     joint = np.bincount(pair, weights=told, minlength=len(pairs)) * like
     total = joint.sum()
     kept = _support(pair_places, joint / total, options.support)
@@ -169,9 +173,9 @@ def _update(
 
 def _support(places: Ints, q: Floats, threshold: float) -> NDArray[np.bool_]:
     """Pairs of the places that hold at least `threshold`; the best place always stays."""
-    _, inverse = np.unique(places, return_inverse=True)
-    mass = np.bincount(inverse, weights=q)
-    return (mass >= min(threshold, float(mass.max())))[inverse]
+    _, index = distinct(places)
+    mass = np.bincount(index, weights=q)
+    return (mass >= min(threshold, float(mass.max())))[index]
 
 
 def _walks(message: Message | None, walked: _Candidates, mass: Floats) -> tuple[Ints, Ints, Floats]:

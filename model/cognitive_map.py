@@ -167,21 +167,25 @@ class CognitiveMap:
         """Rows of `B_s` for `places` under `action`."""
         return places * len(self.motions) + action
 
+    def rows_of(self, places: Ints) -> Ints:
+        """Rows of `B_s` for `places` under every action, place by place."""
+        size = len(self.motions)
+        return (places[:, None] * size + np.arange(size)).ravel()
+
     def blocked(self, places: Ints) -> Floats:
         """`[n, K]` P(blocked | s, a) = B_s[s, s, a], within the floor of the doors; zero for `stay`."""
-        size = len(self.motions)
-        rows = (places[:, None] * size + np.arange(size)).ravel()
-        p = self.B_s.probability(np.repeat(places, size), rows).reshape(-1, size)
-        p = np.clip(p, self.priors.door_floor, 1.0 - self.priors.door_floor)
+        size, floor = len(self.motions), self.priors.door_floor
+        p = self.B_s.probability(places.repeat(size), self.rows_of(places)).reshape(-1, size)
+        np.minimum(np.maximum(p, floor, out=p), 1.0 - floor, out=p)
         p[:, self.motions.stay] = 0.0
         return p
 
     def doors_likelihood(self, places: Ints, open_: Sequence[bool]) -> Floats:
         """`[n]` c(s) = P(doors as sensed | s), for each of `places`."""
-        blocked = self.blocked(places)
-        p = np.where(np.asarray(open_, dtype=np.bool_), 1.0 - blocked, blocked)
+        p = self.blocked(places)
+        np.subtract(1.0, p, out=p, where=np.array(open_, dtype=np.bool_))
         p[:, self.motions.stay] = 1.0
-        return p.prod(axis=1)
+        return np.multiply.reduce(p, axis=1)
 
     def transition(self, next_place: int, place: int, action: int) -> float:
         """P(s' = next_place | s = place, a)."""

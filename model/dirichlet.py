@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import inf
-from weakref import WeakSet
+from weakref import ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,7 +42,7 @@ class SparseDirichlet:
     def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0) -> None:
         self.background = background
         self.outcomes = outcomes
-        self._watches: WeakSet[Journal] = WeakSet()
+        self._watches: list[ref[Journal]] = []
         self._rows = 0
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
@@ -87,16 +87,15 @@ class SparseDirichlet:
 
     def _changed(self, row: int | None) -> None:
         """Note that a row changed; None: any may have."""
-        for journal in self._watches:
-            if row is None:
-                journal.note_all()
-            else:
+        for watch in self._watches:
+            journal = watch()
+            if journal is not None:
                 journal.note(row)
 
     def watch(self) -> Journal:
         """A journal of the rows that change from now on, kept for as long as somebody holds it."""
         journal = Journal()
-        self._watches.add(journal)
+        self._watches = [*(watch for watch in self._watches if watch() is not None), ref(journal)]
         return journal
 
     def _resize(self, rows: int, slots: int) -> None:
@@ -121,7 +120,7 @@ class SparseDirichlet:
     def expect(self, row: int, key: int, prior: float) -> None:
         """Give outcome `key` of `row` a prior of its own."""
         slot = self._slot(row, key)
-        self._set(row, slot, prior=prior, evidence=float(self._evidence[row, slot]))
+        self._set(row, slot, prior=prior, evidence=self._evidence.item(row, slot))
 
     def rename(self, row: int, old: int, new: int) -> None:
         """Let the slot of outcome `old` stand for `new`, with the counts it has.
@@ -140,15 +139,16 @@ class SparseDirichlet:
         if amount <= 0.0 and self.evidence(row, key) == 0.0:
             return 0.0
         slot = self._slot(row, key)
-        before = float(self._evidence[row, slot])
+        before = self._evidence.item(row, slot)
         after = min(max(before + amount, 0.0), max(before, most))
-        self._set(row, slot, prior=float(self._prior[row, slot]), evidence=after)
+        if after != before:
+            self._set(row, slot, prior=self._prior.item(row, slot), evidence=after)
         return after - before
 
     def evidence(self, row: int, key: int) -> float:
         """Evidence for `key` in `row`, prior left out."""
         keys = self._keys[row].tolist()
-        return float(self._evidence[row, keys.index(key)]) if key in keys else 0.0
+        return self._evidence.item(row, keys.index(key)) if key in keys else 0.0
 
     def counts(self, row: int) -> dict[int, float]:
         """Evidence of `row` by outcome, prior left out."""

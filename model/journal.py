@@ -14,16 +14,14 @@ class Journal:
     def __init__(self) -> None:
         self._rows: list[int] | None = None
 
-    def note(self, row: int) -> None:
-        """Counts of one row changed, or one of its slots got a name."""
-        if self._rows is not None:
+    def note(self, row: int | None) -> None:
+        """Counts of a row changed, or one of its slots got a name; None: of any row."""
+        if row is None:
+            self._rows = None
+        elif self._rows is not None:
             self._rows.append(row)
             if len(self._rows) > MOST:
                 self._rows = None
-
-    def note_all(self) -> None:
-        """Any row may have changed."""
-        self._rows = None
 
     def take(self) -> list[int] | None:
         """The rows since the last call, or None where any may have changed."""

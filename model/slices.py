@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .cognitive_map import CognitiveMap
+from .distinct import distinct
 from .factor_graph import FactorGraph
 
 Floats = NDArray[np.float64]
@@ -69,33 +70,36 @@ def take_slice(
     displacement: tuple[float, float],
 ) -> Slice:
     """Snapshot of the tables over the support of the filtered `joint` (places, positions, masses of its pairs)."""
-    places, place_at = np.unique(joint[0], return_inverse=True)
-    positions, position_at = np.unique(joint[1], return_inverse=True)
+    (places, place_at), (positions, position_at) = distinct(joint[0]), distinct(joint[1])
     table = np.zeros((len(places), len(positions)))
     table[place_at, position_at] = joint[2]
-    likely = np.array([map_.A_p.probability(position, places) for position in positions.tolist()])
     transition, motion = np.zeros((len(places), 0)), np.zeros((len(positions), 0))
     if before is not None and action is not None:
         keys, p, _ = map_.B_s.mean(map_.rows(before.places, action))
-        p = p * found_shut(map_, before.places, keys, p, action, open_, slip=slip if was_open else 1.0 - slip)
-        transition = np.einsum("jk,ijk->ij", p, keys[None] == places[:, None, None])
+        p *= found_shut(map_, before.places, keys, p, action, open_, slip=slip if was_open else 1.0 - slip)
+        transition = _looked_up(places, keys, p)
         motion = _motion(map_, positions, before, action, was_open, slip)
     return Slice(
         step=step,
         action=action,
         sight=map_.sights[sight],
-        open=tuple(bool(is_open) for is_open in open_),
+        open=tuple(map(bool, open_)),
         places=places,
         positions=positions,
         joint=table,
         transition=transition,
         motion=motion,
-        place=likely.reshape(len(positions), len(places)),
+        place=_looked_up(positions, *map_.A_p.mean(places)[:2]),
         sight_likelihood=map_.A_o.probability(sight, places),
         doors_likelihood=map_.doors_likelihood(places, open_),
         arrival=map_.visited[places] / max(len(map_.visited_places), 1),
         displacement=displacement,
     )
+
+
+def _looked_up(outcomes: Ints, keys: Ints, p: Floats) -> Floats:
+    """`[m, n]` probability of `outcomes [m]` in rows that give `p [n, k]` to the outcomes `keys [n, k]`."""
+    return np.einsum("jk,ijk->ij", p, keys == outcomes[:, None, None])
 
 
 def found_shut(

@@ -115,7 +115,8 @@ def choose(
     G = terms.G
     probability = policy_posterior(G, precision=precision)
     if how == "best":
-        chosen = int(rng.choice(_best(reach, policies.actions, G)))
+        best = _best(reach, policies.actions, G)
+        chosen = int(best[rng.integers(len(best))])
     else:
         chosen = int(rng.choice(len(G), p=probability))
     action = int(policies.actions[chosen, 0])

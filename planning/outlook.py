@@ -91,7 +91,7 @@ class Outlook:
 
     def _new_doors(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         size = len(self._map.motions)
-        keys, alpha, _ = self._map.B_s.concentration((places[:, None] * size + np.arange(size)).ravel())
+        keys, alpha, _ = self._map.B_s.concentration(self._map.rows_of(places))
         keys, alpha = keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
         doors = Doors.of(places, keys, alpha / alpha.sum(axis=2, keepdims=True))
         # a look teaches nothing where a visit has shown all it can, and no place lies beyond

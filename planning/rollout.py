@@ -57,8 +57,8 @@ class ExpectedFreeEnergy:
 
     def row(self, policy: int) -> dict[str, float]:
         """The terms of one policy by name, and `G`."""
-        terms = {name: float(getattr(self, name)[policy]) for name in self.__slots__}
-        return {**terms, "G": float(self.G[policy])}
+        one = ExpectedFreeEnergy(*(getattr(self, name)[[policy]] for name in self.__slots__))
+        return {**{name: float(getattr(one, name)[0]) for name in self.__slots__}, "G": float(one.G[0])}
 
 
 def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
