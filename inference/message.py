@@ -154,13 +154,13 @@ class Belief:
             walks=walks,
         )
 
-    @property
+    @cached_property
     def place(self) -> int:
         """The most probable place."""
         places, mass = self.message.by_place
         return int(places[mass.argmax()])
 
-    @property
+    @cached_property
     def certainty(self) -> float:
         """Q of the most probable place."""
         return float(self.message.by_place[1].max())

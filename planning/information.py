@@ -102,15 +102,14 @@ def lessons(tables: Sequence[Floats]) -> Lessons:
     """Tables `[R, N + 1]` of information from 0..N visits, zero in column 0, made ready to be read."""
     told = [i for i, table in enumerate(tables) if table.any()]
     most = max(table.shape[1] for table in tables) - 1
-    places = len(tables[0])
-    base, rise = np.zeros((2, places, most + 1, len(told)))
+    pieces = np.zeros((len(tables[0]), most + 1, 2 * len(told)))
     for at, table in enumerate(tables[i] for i in told):
-        steps = np.diff(table, axis=1)
-        last = steps.shape[1]
-        rise[:, :last, at] = steps
-        base[:, :last, at] = table[:, :-1] - np.arange(last) * steps
-        base[:, last:, at] = table[:, -1:]
-    return Lessons(tables, told, np.concatenate([base, rise], axis=2).reshape(places * (most + 1), -1), most)
+        last = table.shape[1] - 1
+        steps = table[:, 1:] - table[:, :-1]
+        pieces[:, :last, len(told) + at] = steps
+        pieces[:, :last, at] = table[:, :-1] - np.arange(last) * steps
+        pieces[:, last:, at] = table[:, -1:]
+    return Lessons(tables, told, pieces.reshape(len(pieces) * (most + 1), -1), most)
 
 
 def collected_information(tables: Sequence[Floats], visits: Floats, reached: Floats) -> Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,12 +31,14 @@ class Kept:
         """Bytes of storage."""
         return self._known.nbytes + sum(column.nbytes for column in self._columns)
 
-    def forget(self, rows: Ints | None = None) -> None:
+    def forget(self, rows: Sequence[int] | None = None) -> None:
         """These rows, or all of them, are worked out again when they are next asked for."""
         if rows is None:
             self._known[:] = False
-        else:
-            self._known[rows[rows < len(self._known)]] = False
+            return
+        for row in rows:
+            if row < len(self._known):
+                self._known[row] = False
 
     def rows(self, wanted: Ints) -> Rows:
         """The rows of these numbers, copied."""
@@ -60,4 +62,4 @@ class Kept:
     def _make_room(self, rows: int) -> None:
         more = max(rows, 2 * len(self._known)) - len(self._known)
         self._known = np.append(self._known, np.zeros(more, dtype=np.bool_))
-        self._columns = [np.concatenate([column, np.empty_like(column, shape=(more, *column.shape[1:]))]) for column in self._columns]
+        self._columns = [np.concatenate([c, np.empty((more, *c.shape[1:]), c.dtype)]) for c in self._columns]

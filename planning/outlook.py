@@ -33,9 +33,8 @@ class Doors:
     @classmethod
     def of(cls, places: Ints, successors: Ints, probability: Floats) -> Doors:
         """The doors that have these successors."""
-        own = successors == places[:, None, None]
-        likely = likeliest(successors, probability, places, ELSEWHERE)
-        return cls(successors, probability, likely, np.einsum("nks,nks->nk", probability, own))
+        likely, blocked = likeliest(successors, probability, places, ELSEWHERE)
+        return cls(successors, probability, likely, blocked)
 
 
 class Outlook:
@@ -63,17 +62,17 @@ class Outlook:
     def refresh(self) -> None:
         """Forget what has changed since the last call."""
         of_sights, of_positions, of_doors = (watch.take() for watch in self._watches)
-        for changed in (of_sights, of_positions):
-            self._sights.forget(None if changed is None else np.array(changed, dtype=np.int64))
-        if self._map.A_o.outcomes != self._outcomes:
+        new_sight = self._map.A_o.outcomes != self._outcomes
+        if new_sight or of_sights is None or of_positions is None:
             self._sights.forget()
-            self._outcomes = self._map.A_o.outcomes
+        else:
+            self._sights.forget(of_sights + of_positions)
         visits, size = self._map.visited_places, len(self._map.motions)
         if of_doors is None:
             self._doors.forget()
         else:
-            self._doors.forget(np.append(np.array(of_doors, dtype=np.int64) // size, visits[self._visits :]))
-        self._visits = len(visits)
+            self._doors.forget([row // size for row in of_doors] + visits[self._visits :].tolist())
+        self._outcomes, self._visits = self._map.A_o.outcomes, len(visits)
 
     def doors(self, places: Ints) -> tuple[Doors, Floats]:
         """The doors of `places`, and what looks at them teach of B_s: `[n, N + 1]` nats."""
@@ -101,8 +100,9 @@ class Outlook:
 
     def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         _, alpha, others = self._map.A_o.concentration(places)
-        alpha = np.column_stack([alpha, np.full(len(places), self._map.A_o.background)])
-        many = np.ones_like(alpha)
+        told = alpha.shape[1]
+        alpha = np.concatenate([alpha, np.full((len(places), 1), self._map.A_o.background)], axis=1)
+        many = np.ones((len(places), told + 1))
         many[:, -1] = others
         of_positions = _information(self._map.A_p.concentration(places)[1], self.steps)
         return _information(alpha, self.steps, many), of_positions
@@ -115,6 +115,8 @@ class Outlook:
 def _information(alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:
     """`dirichlet_information` of `[..., O]` concentrations; rows met before are looked up."""
     outcomes = alpha.shape[-1]
+    if outcomes == 1 and multiplicity is None:  # one outcome teaches nothing
+        return np.zeros((*alpha.shape[:-1], steps + 1))
     many = np.ones_like(alpha) if multiplicity is None else multiplicity
     packed = np.concatenate([alpha, many], axis=-1).tobytes()
     width = 16 * outcomes

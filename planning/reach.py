@@ -77,7 +77,7 @@ class Reach:
     @property
     def indifferent(self) -> bool:
         """Whether no sight and no place is preferred over the others."""
-        return bool(np.ptp(self.log_C) == 0.0 and np.ptp(self.log_C_place) == 0.0)
+        return bool((self.log_C == self.log_C[0]).all() and (self.log_C_place == self.log_C_place[0]).all())
 
     def check(self) -> None:
         """Raise `CogmapError` naming the first table that is of the wrong shape or no probability."""

@@ -143,7 +143,7 @@ class _Tables:
             belief=reach.belief[at],
             B=_laid_out(B),
             A=A,
-            linear=np.column_stack([_entropy(A), reach.utility[at], risk]),
+            linear=np.concatenate([_entropy(A)[:, None], reach.utility[at, None], risk], axis=1),
             lessons=lessons(
                 [reach.sight_information[at], reach.position_information[at], reach.transition_information[at]]
             ),

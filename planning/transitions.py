@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+MANY = np.iinfo(np.int64).max
 
 
 @dataclass(frozen=True)
@@ -90,9 +91,11 @@ class Transitions:
         return Transitions(np.where(inside[successors], local[successors], here), self.probability[places])
 
 
-def likeliest(successors: Ints, probability: Floats, places: Ints, nowhere: int) -> Ints:
-    """`[n, K]` where each action most probably leads besides the place itself; -1 where that is less probable than
-    staying or than `nowhere`. Of equals it is the one with the lowest number.
+def likeliest(successors: Ints, probability: Floats, places: Ints, nowhere: int) -> tuple[Ints, Floats]:
+    """`[n, K]` where each action most probably leads besides the place itself, and the probability of staying.
+
+    The first is -1 where that is less probable than staying or than `nowhere`. Of equals it is the one with the lowest
+    number.
 
     Args:
         successors: `[n, K, slots]`.
@@ -104,6 +107,6 @@ def likeliest(successors: Ints, probability: Floats, places: Ints, nowhere: int)
     lost = successors == nowhere
     others = np.where(own | lost, 0.0, probability)
     p = others.max(axis=2)
-    best = np.where(others == p[..., None], successors, np.iinfo(np.int64).max).min(axis=2)
-    staying, losing = (np.einsum("nks,nks->nk", probability, those) for those in (own, lost))
-    return np.where((p > 0.0) & (p >= staying) & (p >= losing), best, -1)
+    best = np.where(others == p[..., None], successors, MANY).min(axis=2)
+    staying, losing = np.einsum("nks,nks->nk", probability, own), np.einsum("nks,nks->nk", probability, lost)
+    return np.where((p > 0.0) & (p >= staying) & (p >= losing), best, -1), staying

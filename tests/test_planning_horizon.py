@@ -131,7 +131,9 @@ def test_likeliest_is_the_greatest_of_the_dense_table() -> None:
             slots = zip(B.successors[place, action].tolist(), B.probability[place, action].tolist(), strict=True)
             best = max([(q, -s) for s, q in slots if s not in (place, 5)], default=(0.0, 1))
             wanted = -best[1] if best[0] > 0 and best[0] >= staying and best[0] >= nowhere else -1
-            assert likeliest(B.successors, B.probability, np.arange(6), 5)[place, action] == wanted
+            likely, blocked = likeliest(B.successors, B.probability, np.arange(6), 5)
+            assert likely[place, action] == wanted
+            assert blocked[place, action] == pytest.approx(staying)
 
 
 @pytest.mark.parametrize(

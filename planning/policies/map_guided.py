@@ -85,14 +85,18 @@ class _Skeleton:
 
     @classmethod
     def of(cls, reach: Reach) -> _Skeleton:
-        ways: list[list[tuple[int, int, float]]] = []
-        unknown: list[list[int]] = []
-        risk = (reach.collision * reach.collision_cost).tolist()
-        untried = ((reach.successor < 0) & (reach.collision < BLOCKED)).tolist()
-        moves = [a for a in range(len(reach.motions)) if a != reach.motions.stay]
-        for i, successors in enumerate(reach.successor.tolist()):
-            ways.append([(a, successors[a], risk[i][a]) for a in moves if successors[a] not in (-1, i)])
-            unknown.append([a for a in moves if untried[i][a]])
+        successor, moves = reach.successor, np.arange(len(reach.motions)) != reach.motions.stay
+        ways: list[list[tuple[int, int, float]]] = [[] for _ in successor]
+        unknown: list[list[int]] = [[] for _ in successor]
+        known = (successor >= 0) & (successor != np.arange(len(successor))[:, None]) & moves
+        place, action = np.nonzero(known)
+        risk = reach.collision[place, action] * reach.collision_cost
+        rows = zip(place.tolist(), action.tolist(), successor[place, action].tolist(), risk.tolist(), strict=True)
+        for i, a, after, nats in rows:
+            ways[i].append((a, after, nats))
+        place, action = np.nonzero((successor < 0) & (reach.collision < BLOCKED) & moves)
+        for i, a in zip(place.tolist(), action.tolist(), strict=True):
+            unknown[i].append(a)
         greatest = float(reach.promise.max())
         floor = max(PROMISING * greatest, LEAST)
         promise = reach.promise.tolist()
