@@ -21,7 +21,8 @@ from ..model.labels import decode, encode
 from ..model.map_state import map_arrays, restore_map
 from ..model.motions import Motions, MotionSpec
 from ..model.slices import Slice, take_slice, window_graph
-from ..planning import Plan, plan
+from ..planning import Plan
+from ..planning.choice import consider
 from ..planning.horizon import Preferences, cut_reach
 from ..planning.outlook import Outlook
 from .mapper import Mapper
@@ -335,7 +336,7 @@ class Agent:
             information_weight=settings.information_weight,
             outlook=self._outlook,
         )
-        return plan(
+        return consider(
             reach,
             generator=settings.policies,
             precision=settings.precision,

@@ -30,7 +30,8 @@ class Settings:
             appendix on policies).
         beam: prefixes that `map_guided` keeps a level.
         precision: γ in P(π) = softmax(-γ G) (paper: 16).
-        choice: `best` takes a policy of the least G, ties broken by the seed; `sampled` draws from P(π).
+        choice: `outward` takes a policy of the least G, ties broken by the seed, and while it only explores one that is
+            nearly as good if that leads further out (ours); `best` the least G always; `sampled` draws from P(π).
         growth: `predicted`, `observed` or `static` (paper's figure on internal map layouts: c, b, a).
         places: number of places, for `static` growth only.
         rates: learning rates of the Dirichlet counts (paper's table of transition learning rates).
@@ -53,7 +54,7 @@ class Settings:
     policies: str = "map_guided"
     beam: int = 64
     precision: float = 16.0
-    choice: str = "best"
+    choice: str = "outward"
     growth: str = "predicted"
     places: int | None = None
     rates: Rates = field(default_factory=Rates)

@@ -19,6 +19,7 @@ from cogmap.agent import Settings
 from cogmap.experiments import explore_many, summarise
 from cogmap.inference.message import Belief, FilterOptions
 from cogmap.model import TABLE_RATES, TEXT_RATES, Priors
+from cogmap.planning import CHOICES
 from cogmap.worlds import MAZES, Maze, spiral
 from machine import write_json
 
@@ -51,7 +52,7 @@ class Variant:
 DEFAULTS = Settings()
 ABLATIONS: dict[str, Sequence[Variant]] = {
     "policies": [Variant(name, Settings(policies=name)) for name in ("map_guided", "self_avoiding", "l_shaped")],
-    "choice": [Variant(name, Settings(choice=name)) for name in ("best", "sampled")],
+    "choice": [Variant(name, Settings(choice=name)) for name in CHOICES],
     "discount": [Variant(f"{value:g}", Settings(discount=value)) for value in (1.0, 0.98, 0.95, 0.9, 0.8)],
     "sight": [Variant(f"{value:g}", Settings(priors=Priors(sight=value))) for value in (1e-9, 1e-6, 1e-3, 0.1)],
     "transition": [Variant(f"{value:g}", Settings(priors=Priors(transition=value))) for value in (0.02, 0.1, 0.5, 1.0)],

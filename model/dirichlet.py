@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from math import inf
-from weakref import ref
+from operator import add
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,14 +36,15 @@ class SparseDirichlet:
     Attributes:
         background: concentration of every outcome of the domain, whether it has a slot or not.
         outcomes: size of the domain; matters only where `background` is positive.
+        journal: of the rows that change.
     """
 
-    __slots__ = ("_alpha", "_evidence", "_keys", "_prior", "_rows", "_total", "_watches", "background", "outcomes")
+    __slots__ = ("_alpha", "_evidence", "_keys", "_prior", "_rows", "_total", "background", "journal", "outcomes")
 
     def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0) -> None:
         self.background = background
         self.outcomes = outcomes
-        self._watches: list[ref[Journal]] = []
+        self.journal = Journal()
         self._rows = 0
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
@@ -73,37 +75,24 @@ class SparseDirichlet:
         for array in (self._prior, self._evidence, self._alpha, self._total):
             array[rows : self._rows] = 0.0
         self._rows = rows
-        self._changed(None)
+        self.journal.note(None)
 
-    def _add_up(self, rows: Ints | slice) -> None:
+    def _add_up(self, rows: Ints | slice = slice(None)) -> None:
         self._alpha[rows] = self._prior[rows] + self._evidence[rows]
-        self._total[rows] = self._alpha[rows].sum(axis=1)
+        self._total[rows] = reduce(add, self._alpha[rows].T)  # slot by slot, as `_set` does
 
     def _set(self, row: int, slot: int, *, prior: float, evidence: float) -> None:
         self._prior[row, slot], self._evidence[row, slot] = prior, evidence
         self._alpha[row, slot] = prior + evidence
-        self._total[row] = sum(self._alpha[row].tolist())
-        self._changed(row)
-
-    def _changed(self, row: int | None) -> None:
-        """Note that a row changed; None: any may have."""
-        for watch in self._watches:
-            journal = watch()
-            if journal is not None:
-                journal.note(row)
-
-    def watch(self) -> Journal:
-        """A journal of the rows that change from now on, kept for as long as somebody holds it."""
-        journal = Journal()
-        self._watches = [*(watch for watch in self._watches if watch() is not None), ref(journal)]
-        return journal
+        self._total[row] = reduce(add, self._alpha[row].tolist())
+        self.journal.note(row)
 
     def _resize(self, rows: int, slots: int) -> None:
         self._keys = _grown(self._keys, (rows, slots), EMPTY).astype(np.int64)
         self._prior = _grown(self._prior, (rows, slots), 0.0).astype(np.float64)
         self._evidence = _grown(self._evidence, (rows, slots), 0.0).astype(np.float64)
-        self._alpha = self._prior + self._evidence
-        self._total = self._alpha.sum(axis=1)
+        self._alpha, self._total = np.zeros((rows, slots)), np.zeros(rows)
+        self._add_up()
 
     def _slot(self, row: int, key: int) -> int:
         """Slot of `key` in `row`; taken anew where it has none."""
@@ -132,7 +121,7 @@ class SparseDirichlet:
             raise CogmapError(f"table: outcome {new} of row {row} has counts already; rename to an outcome without")
         slot = self._slot(row, old)  # may put larger arrays in place
         self._keys[row, slot] = new
-        self._changed(row)
+        self.journal.note(row)
 
     def add(self, row: int, key: int, amount: float, *, most: float = inf) -> float:
         """Add evidence (negative takes away) for `key` in `row`, `most` in all; returns what was really added."""
@@ -158,7 +147,7 @@ class SparseDirichlet:
         """Multiply the evidence of `rows` by `keep`, in [0, 1]: what was learned long ago fades."""
         self._evidence[rows] *= keep
         self._add_up(rows)
-        self._changed(None)
+        self.journal.note(None)
 
     def keys(self, rows: Ints | slice) -> Ints:
         """`[n, slots]` outcomes that have a slot in `rows` (`EMPTY` where unused)."""
@@ -234,6 +223,6 @@ class SparseDirichlet:
         self._prior = state["prior"].astype(np.float64)
         self._evidence = state["evidence"].astype(np.float64)
         self._rows = self._keys.shape[0]
-        self._alpha = self._prior + self._evidence
-        self._total = self._alpha.sum(axis=1)
-        self._changed(None)
+        self._alpha, self._total = np.zeros_like(self._prior), np.zeros(self._rows)
+        self._add_up()
+        self.journal.note(None)

@@ -23,14 +23,14 @@ class SightIndex:
     """Which visited places may show a sight; brought up to date from the journal of A_o when it is asked.
 
     Args:
-        map_: whose `A_o` is watched; its slots are never renamed.
+        map_: the map; slots of its `A_o` are never renamed.
     """
 
-    __slots__ = ("_journal", "_listed", "_map", "_places", "_unsettled")
+    __slots__ = ("_listed", "_map", "_places", "_read", "_unsettled")
 
     def __init__(self, map_: CognitiveMap) -> None:
         self._map = map_
-        self._journal = map_.A_o.watch()
+        self._read = -1
         self._places: dict[int, Column] = {}
         self._listed = Column(np.int64)  # how many slots of a place are in `_places`, in the order of visits
         self._unsettled: set[int] = set()
@@ -45,7 +45,7 @@ class SightIndex:
         return listed, self._map.A_o.background / SETTLED
 
     def _update(self) -> None:
-        changed, visits = self._journal.take(), self._map.visited_places
+        (changed, self._read), visits = self._map.A_o.journal.since(self._read), self._map.visited_places
         if changed is None:
             self._rebuild(visits)
         else:

@@ -16,8 +16,9 @@ from .rollout import ExpectedFreeEnergy, evaluate
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-CHOICES = ("best", "sampled")
+CHOICES = ("outward", "best", "sampled")
 TIE = 1e-3  # nats; policies closer than this are equally good: at a precision of 16 their odds are 1.016 to 1
+SLACK = 0.25  # nats that an agent which only explores gives up, at most, to go further out first
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,13 +98,18 @@ def choose(
     terms: ExpectedFreeEnergy,
     *,
     precision: float = 16.0,
-    how: str = "best",
+    how: str = "outward",
     rng: np.random.Generator,
 ) -> Plan:
-    """The plan: "best" takes the least G, "sampled" draws from P(policy).
+    """The plan, chosen in one of these ways.
 
-    Among policies as good as the best (within `TIE`) the draw is even: an agent that knows its world walks about. Where
-    something is preferred those that move least come first: an agent at its goal stays there.
+    - "best" takes a policy of the least G. Among policies as good as the best (within `TIE`) the draw is even: an agent
+      that knows its world walks about. Where something is preferred those that move least come first: an agent at its
+      goal stays there.
+    - "outward" does so too where something is preferred, or nothing is new within reach. While it only explores, it
+      takes, of the policies within `SLACK` of the least G, those whose first place never entered lies furthest out
+      (`Reach.frontier`), and the best of them: exploring leaves fewer pockets behind.
+    - "sampled" draws from P(policy).
 
     Raises:
         CogmapError: unknown `how`, terms of other policies, or what `policy_posterior` raises.
@@ -114,22 +120,43 @@ def choose(
         raise CogmapError(f"choose: {len(terms)} values of G for {len(policies)} policies; evaluate these")
     G = terms.G
     probability = policy_posterior(G, precision=precision)
-    if how == "best":
-        best = _best(reach, policies.actions, G)
-        chosen = int(best[rng.integers(len(best))])
-    else:
+    if how == "sampled":
         chosen = int(rng.choice(len(G), p=probability))
+    else:
+        best = contenders(reach, policies.actions, G, how=how)
+        chosen = int(best[rng.integers(len(best))])
     action = int(policies.actions[chosen, 0])
     return Plan(reach, policies.actions, terms, probability, chosen, action, policies.cut)
 
 
-def _best(reach: Reach, actions: Ints, G: Floats) -> Ints:
-    """Indices of the policies that are equally good and best."""
-    good = np.flatnonzero(G - G.min() <= TIE)
-    if reach.indifferent:
-        return good
-    moves = (actions[good] != reach.motions.stay).sum(axis=1)
-    return good[moves == moves.min()]
+def contenders(reach: Reach, actions: Ints, G: Floats, *, how: str) -> Ints:
+    """Indices of the policies among which the lot is drawn, for every way to choose but "sampled"; see `choose`."""
+    good = np.arange(len(G))
+    if not reach.indifferent:
+        good = _near(G, good, TIE)
+        moves = (actions[good] != reach.motions.stay).sum(axis=1)
+        good = good[moves == moves.min()]
+    elif how == "outward" and reach.frontier.max() >= 0.0:
+        good = _near(G, good, SLACK)
+        outward = _outward(reach, actions[good])
+        good = good[outward == outward.max()]
+    return _near(G, good, TIE)
+
+
+def _near(G: Floats, policies: Ints, nats: float) -> Ints:
+    """Those of the policies that are so near to the best of them."""
+    return policies[G[policies] <= G[policies].min() + nats]
+
+
+def _outward(reach: Reach, actions: Ints) -> Floats:
+    """`[P]` frontier of the first place never entered on the most probable way of each policy; -1 if there is none."""
+    place = np.full(len(actions), reach.belief.argmax())
+    outward = np.full(len(actions), -1.0)
+    for action in actions.T:
+        after = reach.successor[place, action]
+        place = np.where(after >= 0, after, place)
+        outward = np.where(outward >= 0.0, outward, reach.frontier[place])
+    return outward
 
 
 def plan(
@@ -137,17 +164,17 @@ def plan(
     *,
     generator: str | Callable[[Reach], Policies] = "map_guided",
     precision: float = 16.0,
-    choice: str = "best",
+    choice: str = "outward",
     rng: np.random.Generator,
     beam: int = DEFAULT_BEAM,
 ) -> Plan:
-    """Generate policies, evaluate them, choose one.
+    """Check the tables, generate policies, evaluate them, choose one.
 
     Args:
         reach: the tables within reach.
         generator: a name in `GENERATORS`, or any function from Reach to Policies.
         precision: gamma of eq. 6.
-        choice: "best" or "sampled", see `choose`.
+        choice: "outward", "best" or "sampled", see `choose`.
         rng: breaks ties, and draws when sampling.
         beam: bound on the search of "map_guided".
 
@@ -155,6 +182,19 @@ def plan(
         CogmapError: a table that does not fit (see `Reach.check`), an unknown name, or a bad option.
     """
     reach.check()
+    return consider(reach, generator=generator, precision=precision, choice=choice, rng=rng, beam=beam)
+
+
+def consider(
+    reach: Reach,
+    *,
+    generator: str | Callable[[Reach], Policies],
+    precision: float,
+    choice: str,
+    rng: np.random.Generator,
+    beam: int,
+) -> Plan:
+    """`plan` for tables that are known to fit, as those of `cut_reach` are."""
     policies = _generator(generator, beam)(reach)
     return choose(reach, policies, evaluate(reach, policies), precision=precision, how=choice, rng=rng)
 

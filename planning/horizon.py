@@ -111,6 +111,7 @@ def cut_reach(
         transition_information=np.concatenate([of_doors[:, : look_ahead + 1], nothing]),
         successor=successor,
         promise=information_weight * of_sights[:, 1] + _hope(A, multiplicity, log_C) + np.maximum(log_C_place, 0.0),
+        frontier=_frontier(map_, within),
         discount=discount,
         information_weight=information_weight,
         dropped=dropped,
@@ -160,6 +161,17 @@ def _hope(A: Floats, multiplicity: Floats, log_C: Floats) -> Floats | float:
     if not log_C.any():
         return 0.0
     return np.maximum(log_C @ A - (log_C @ multiplicity) / multiplicity.sum(), 0.0)
+
+
+def _frontier(map_: CognitiveMap, places: Ints) -> Floats:
+    """`[R + 1]` squared distance from the origin of places never entered; -1 for others, and for those without position."""
+    frontier = np.full(len(places) + 1, -1.0)
+    new = np.flatnonzero(~map_.visited[places])
+    for i, place in zip(new.tolist(), places[new].tolist(), strict=True):
+        position = map_.position(place)
+        if position is not None:
+            frontier[i] = sum(x * x for x in position)
+    return frontier
 
 
 def _sense(doors: Doors, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:

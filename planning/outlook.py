@@ -45,13 +45,13 @@ class Outlook:
         steps: visits, at most, that plans ask the information of: N.
     """
 
-    __slots__ = ("_doors", "_map", "_outcomes", "_sights", "_visits", "_watches", "steps")
+    __slots__ = ("_doors", "_map", "_outcomes", "_read", "_sights", "_visits", "steps")
 
     def __init__(self, map_: CognitiveMap, steps: int) -> None:
         self.steps = steps
         self._map = map_
         self._doors, self._sights = Kept(self._new_doors), Kept(self._new_sights)
-        self._watches = map_.A_o.watch(), map_.A_p.watch(), map_.B_s.watch()
+        self._read = [-1, -1, -1]  # of the journals of A_o, A_p, B_s
         self._outcomes = self._visits = 0
 
     @property
@@ -61,7 +61,9 @@ class Outlook:
 
     def refresh(self) -> None:
         """Forget what has changed since the last call."""
-        of_sights, of_positions, of_doors = (watch.take() for watch in self._watches)
+        journals = self._map.A_o.journal, self._map.A_p.journal, self._map.B_s.journal
+        news = [journal.since(read) for journal, read in zip(journals, self._read, strict=True)]
+        (of_sights, of_positions, of_doors), self._read = (rows for rows, _ in news), [read for _, read in news]
         new_sight = self._map.A_o.outcomes != self._outcomes
         if new_sight or of_sights is None or of_positions is None:
             self._sights.forget()
@@ -127,7 +129,8 @@ def _information(alpha: Floats, steps: int, multiplicity: Floats | None = None) 
 @lru_cache(maxsize=1 << 14)
 def _row_information(packed: bytes, steps: int) -> Floats:
     """One row: its concentrations, then their multiplicities."""
-    alpha, many = np.frombuffer(packed).reshape(2, -1)
-    if (many[alpha > 0.0]).sum() <= 1.0:  # one outcome teaches nothing
+    both = np.frombuffer(packed).reshape(2, -1)
+    alpha, many = both[:, both[0] > 0.0]  # to the bit the same, however many slots are unused
+    if many.sum() <= 1.0:  # one outcome teaches nothing
         return np.zeros(steps + 1)
     return dirichlet_information(alpha, steps, multiplicity=many)

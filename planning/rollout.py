@@ -188,6 +188,8 @@ def _evaluate(tables: _Tables, actions: Ints) -> Floats:
 def _moving(tables: _Tables, actions: Ints) -> int:
     """Steps until all policies stay to the end; all steps where summing over those that are left would not pay."""
     length = actions.shape[1]
+    if length <= tables.lessons.most:
+        return length
     moves = np.flatnonzero((actions != tables.stay).any(axis=0))
     moving = int(moves[-1]) + 1 if len(moves) else 1
     return moving if length - moving > tables.lessons.most else length
@@ -198,18 +200,17 @@ def _roll(tables: _Tables, prefixes: Prefixes) -> _Rolled:
     size = len(tables.belief)
     belief, visits, reached = np.zeros((3, len(prefixes), size))
     belief[0] = tables.belief
-    level = prefixes.level
-    for t in range(1, len(level) - 1):
-        here, above = slice(level[t], level[t + 1]), level[t - 1]
-        parent, action = prefixes.parent[here], prefixes.action[here]
+    level, kinds = prefixes.level, tables.linear.shape[1] - 2
+    child = prefixes.parent * kinds + prefixes.action
+    for above, begin, end in zip(level, level[1:], level[2:], strict=False):
+        parent, after = prefixes.parent[begin:end], belief[begin:end]
         if isinstance(tables.B, Transitions):
-            after = tables.B.predicted(belief[parent], action)
+            after[:] = tables.B.predicted(belief[parent], prefixes.action[begin:end])
         else:
-            every = (belief[above : level[t]] @ tables.B).reshape(-1, size)
-            after = every[(parent - above) * (len(every) // (level[t] - above)) + action]
-        belief[here] = after
-        np.add(visits[parent], after, out=visits[here])
-        np.maximum(reached[parent], after, out=reached[here])
+            every = (belief[above:begin] @ tables.B).reshape(-1, size)
+            every.take(child[begin:end] - above * kinds, axis=0, out=after)
+        np.add(visits[parent], after, out=visits[begin:end])
+        np.maximum(reached[parent], after, out=reached[begin:end])
     return _Rolled(belief, visits, reached)
 
 

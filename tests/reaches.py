@@ -53,6 +53,7 @@ def random_reach(
         transition_information=dirichlet_information(rng.random((places, kinds, 3)) + 1e-3, steps).sum(axis=1),
         successor=rng.integers(-1, places, (places, kinds)),
         promise=rng.random(places) * (rng.random(places) < 0.6),
+        frontier=np.where(rng.random(places) < 0.4, rng.random(places), -1.0),
         discount=float(rng.choice([1.0, 0.9])),
         information_weight=float(rng.choice([0.0, 1.0, 2.5])),
     )
@@ -110,4 +111,5 @@ def grid_reach(
         transition_information=dirichlet_information(np.full((R, K, 2), [5.0, 0.1]), look).sum(axis=1),
         successor=successor,
         promise=sight[:, 1] + np.array([3.0 if room == goal else 0.0 for room in rooms]),
+        frontier=np.array([-1.0 if room in visited else float(sum(x * x for x in room)) for room in rooms]),
     )

@@ -56,7 +56,7 @@ def eventful(steps: int = 90, **options: Any) -> Recording:
     """Kidnapped before it knows the maze, so that it takes back what it learned; a room and a door are closed."""
     world = load_world("4x4_alias")
     events = {
-        **kidnaps(7, 60, (1, 2), (3, 0)),
+        **kidnaps(6, 60, (1, 2), (3, 0)),
         65: lambda world, _: close_elsewhere(world, (1, 1)),
         70: lambda world, _: world.close_door((2, 2), (2, 3)),
         80: lambda world, _: world.open_room((1, 1)),

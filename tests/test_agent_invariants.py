@@ -21,7 +21,7 @@ def drawn(rng: np.random.Generator) -> tuple[MazeEnv, Agent]:
     settings = Settings(
         look_ahead=int(rng.integers(2, 4)),
         growth=str(rng.choice(["predicted", "predicted", "observed"])),
-        choice=str(rng.choice(["best", "sampled"])),
+        choice=str(rng.choice(["outward", "best", "sampled"])),
         forgetting=float(rng.choice([0.0, 0.0, rng.uniform(0.0, 0.5)])),
     )
     agent = Agent(world.motions, settings=settings, seed=int(rng.integers(1 << 30)))

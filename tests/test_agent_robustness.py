@@ -21,7 +21,7 @@ options = st.fixed_dictionaries(
         "look_ahead": st.integers(1, 3),
         "growth": st.sampled_from(["predicted", "predicted", "observed", "static"]),
         "policies": st.sampled_from(["map_guided", "map_guided", "self_avoiding", "l_shaped", "exhaustive"]),
-        "choice": st.sampled_from(["best", "sampled"]),
+        "choice": st.sampled_from(["outward", "best", "sampled"]),
         "window": st.sampled_from([1, 2, 5, 10]),
         "certainty": st.sampled_from([0.0, 0.5, 0.7, 0.95, 1.0]),
         "forgetting": st.sampled_from([0.0, 0.0, 0.05, 1.0]),

@@ -98,7 +98,7 @@ some = st.builds(
     look_ahead=st.integers(1, 9),
     policies=st.sampled_from(["map_guided", "exhaustive", "self_avoiding", "l_shaped"]),
     precision=st.floats(0.0, 99.0),
-    choice=st.sampled_from(["best", "sampled"]),
+    choice=st.sampled_from(["outward", "best", "sampled"]),
     growth=st.sampled_from(["predicted", "observed", "static"]),
     places=st.one_of(st.none(), st.integers(1, 99)),
     rates=st.sampled_from([Rates(), TEXT_RATES, Rates(likelihood=0.5)]),

@@ -7,7 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cogmap.model.errors import CogmapError
-from cogmap.planning import ExpectedFreeEnergy, Plan, Policies, choose, evaluate, map_guided, plan, policy_posterior
+from cogmap.planning import (
+    ExpectedFreeEnergy,
+    Plan,
+    Policies,
+    Reach,
+    choose,
+    evaluate,
+    map_guided,
+    plan,
+    policy_posterior,
+)
+from cogmap.planning.choice import SLACK
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from reaches import grid_reach, random_reach
@@ -51,12 +62,29 @@ def test_best_breaks_ties_evenly_and_among_those_that_move_least_where_something
     # policies 1, 3 and 4 are as good as the best; 4 moves twice, the other two once
     policies = Policies(np.array([[4, 4], [0, 4], [1, 4], [2, 4], [0, 0], [3, 4]]))
     rng = np.random.default_rng(0)
-    exploring = replace(random_reach(0), log_C=np.zeros(4), log_C_place=np.zeros(5))
+    exploring = replace(random_reach(0), log_C=np.zeros(4), log_C_place=np.zeros(5), frontier=np.full(5, -1.0))
     assert {choose(exploring, policies, terms, rng=rng).chosen for _ in range(400)} == {1, 3, 4}
     preferring = replace(exploring, log_C=np.array([0.0, 1.0, 0.0, 0.0]))
     chosen = [choose(preferring, policies, terms, rng=rng).chosen for _ in range(400)]
     assert set(chosen) == {1, 3}
     assert 150 < chosen.count(1) < 250
+
+
+def test_exploring_goes_furthest_out_first_of_what_is_nearly_as_good() -> None:
+    corridor = [(0, column) for column in range(6)]
+    reach = grid_reach(corridor, visited=corridor[1:5], at=(0, 2))
+    LEFT, RIGHT, STAY = 2, 3, 4  # two moves to either end; the right one is further from the origin
+    policies = Policies(np.array([[LEFT, LEFT, STAY], [RIGHT, RIGHT, RIGHT], [STAY, STAY, STAY]]))
+    rng = np.random.default_rng(0)
+
+    def chosen(G: list[float], reach: Reach = reach) -> set[int]:
+        return {choose(reach, policies, with_G(G)[1], rng=rng).chosen for _ in range(20)}
+
+    assert chosen([0.0, 0.9 * SLACK, 0.0]) == {1}
+    assert chosen([0.0, 1.1 * SLACK, 0.0]) == {0}
+    assert chosen([0.9 * SLACK, 1.1 * SLACK, 0.0]) == {0}  # any frontier before none
+    assert chosen([0.0, 0.5 * SLACK, 0.0], replace(reach, log_C=np.arange(7.0))) == {2}  # a wish: only the best count
+    assert chosen([0.0, 0.5 * SLACK, 0.0], replace(reach, frontier=np.full(6, -1.0))) == {0, 2}
 
 
 def test_sampled_draws_from_the_posterior() -> None:

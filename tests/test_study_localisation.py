@@ -23,7 +23,7 @@ STEM = [(1, 2), (2, 2), FOOT]
 
 @pytest.fixture(scope="module")
 def result() -> LocalisationResult:
-    return localisation_study(agents=3)
+    return localisation_study(agents=3, seed=2)
 
 
 def only(result: LocalisationResult, condition: str, agent: int) -> LocalisationTrial:
@@ -96,7 +96,7 @@ def test_who_is_done_keeps_the_last_value(result: LocalisationResult) -> None:
 
 
 def test_agents_are_repeated_by_their_seed(result: LocalisationResult) -> None:
-    again = localisation_study(agents=1, seed=2)
+    again = localisation_study(agents=1, seed=4)
     assert again.rows == result.rows[2:]
 
 

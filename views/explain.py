@@ -12,7 +12,7 @@ from ..agent import Agent
 from ..model.errors import CogmapError
 from ..model.labels import encode, plain
 from ..planning import Plan, Policies, evaluate
-from ..planning.choice import TIE
+from ..planning.choice import SLACK, TIE, contenders
 from .explain_text import explanation_html, explanation_text
 
 SIGNS = {
@@ -77,9 +77,10 @@ class Rejected:
         policy: the policy.
         worse: for each term, how much it adds to G beyond what it adds for the chosen policy, in nats.
         term: the term in which it lost most; None where it is as good as the chosen one, or better.
-        verdict: `lot` (as good; the lot fell on another), `moves` (as good, but it moves more), `drawn` (as good or
-            better; policies are drawn from P(policy)), `later` (it lost most in a term that it gets as much of, only
-            later: a longer way), or `less` (it lost most in that term).
+        verdict: `lot` (as good; the lot fell on another), `moves` (as good, but it moves more), `outward` (nearly as
+            good or better, but it does not lead as far out), `drawn` (as good or better; policies are drawn from
+            P(policy)), `later` (it lost most in a term that it gets as much of, only later: a longer way), or `less`
+            (it lost most in that term).
     """
 
     policy: WeighedPolicy
@@ -125,7 +126,7 @@ class Explanation:
         length: their number of steps.
         cut: prefixes that the bound on the search left out.
         generator: the policy generator.
-        choice: `best` or `sampled`.
+        choice: `outward`, `best` or `sampled`.
         precision: γ of P(policy).
         chosen: the policy chosen.
         equals: policies that were as good, this one included: among them the lot was drawn (with `sampled`, none was).
@@ -196,7 +197,7 @@ def explain(agent: Agent, *, most: int = 5) -> Explanation:
     plan, belief, settings, wishes = agent.plan, agent.belief, agent.settings, agent.wishes
     G = plan.expected_free_energy.G
     ranked = [int(policy) for policy in np.argsort(G, kind="stable")[:most]]
-    equals = _equals(plan)
+    equals = set(contenders(plan.reach, plan.policies, G, how=settings.choice).tolist())
     lesser = [int(policy) for policy in np.argsort(G, kind="stable") if int(policy) not in equals][:most]
     told = [policy for policy in dict.fromkeys([*ranked, *lesser]) if policy != plan.chosen]
     return Explanation(
@@ -211,7 +212,7 @@ def explain(agent: Agent, *, most: int = 5) -> Explanation:
         choice=settings.choice,
         precision=settings.precision,
         chosen=_weighed(plan, plan.chosen),
-        equals=len(equals) if settings.choice == "best" else 1,
+        equals=len(equals) if settings.choice != "sampled" else 1,
         best=tuple(_weighed(plan, policy) for policy in ranked),
         rejected=_rejected(plan, told, equals, settings.choice),
         actions=tuple(_first(plan, action) for action in range(len(plan.reach.motions))),
@@ -246,20 +247,6 @@ def _weighed(plan: Plan, policy: int) -> WeighedPolicy:
     )
 
 
-def _equals(plan: Plan) -> set[int]:
-    """The policies among which "best" draws the lot; see `planning.choose`."""
-    G = plan.expected_free_energy.G
-    good = np.flatnonzero(G - G.min() <= TIE)
-    if not plan.reach.indifferent:
-        moves = _moves(plan)[good]
-        good = good[moves == moves.min()]
-    return set(good.tolist())
-
-
-def _moves(plan: Plan) -> np.ndarray[Any, np.dtype[np.int64]]:
-    return (plan.policies != plan.reach.motions.stay).sum(axis=1)
-
-
 def _rejected(plan: Plan, policies: list[int], equals: set[int], choice: str) -> tuple[Rejected, ...]:
     if not policies:
         return ()
@@ -285,6 +272,8 @@ def _tied(plan: Plan, policy: int, equals: set[int], choice: str) -> str | None:
         return "drawn" if G[policy] - G[plan.chosen] <= TIE else None
     if policy in equals:
         return "lot"
+    if choice == "outward" and plan.reach.indifferent and G[policy] <= G.min() + SLACK:
+        return "outward" if plan.reach.frontier.max() >= 0.0 else None
     return "moves" if G[policy] - G.min() <= TIE else None
 
 

@@ -24,6 +24,13 @@ HEADINGS = {
 }
 """Columns of the table of policies."""
 
+HOW = {
+    "outward": "the least G, or nearly so and furthest out",
+    "best": "the least G",
+    "sampled": "drawn from P(policy)",
+}
+"""What the ways to choose mean."""
+
 WORDS = {
     "collision": "risk of collision",
     "state_information": "information about where it is",
@@ -91,7 +98,7 @@ def _place(believed: BelievedPlace) -> str:
 
 def _choice(told: Explanation) -> list[str]:
     cut = f"{told.cut} prefixes cut" if told.cut else "none cut"
-    how = "drawn from P(policy)" if told.choice == "sampled" else "the least G"
+    how = HOW[told.choice]
     lines = [
         f"it weighed {told.considered} {'policy' if told.considered == 1 else 'policies'} of {told.length} steps "
         f"({told.generator}, {cut}) and chose ({how}, precision {told.precision:g})",
@@ -123,6 +130,8 @@ def _reason(lost: Rejected) -> str:
         return "as good; the lot fell on another"
     if lost.verdict == "moves":
         return "as good, but it moves more, and where something is preferred those that move least come first"
+    if lost.verdict == "outward":
+        return "about as good, but while it only explores what leads further out comes first"
     if lost.verdict == "drawn":
         return f"no worse ({lost.difference:+.3f} nats), but the draw from P(policy) fell on another"
     word, by = WORDS[lost.term or ""], lost.worse[lost.term or ""]

@@ -47,6 +47,7 @@ def reach_of(problem: Arrays) -> Reach:
         transition_information=nothing,
         successor=np.full((places, len(MOVES)), -1),
         promise=np.zeros(places),
+        frontier=np.full(places, -1.0),
     )
 
 

@@ -66,7 +66,8 @@ function chosen(frame) {
   const plan = frame.plan, terms = plan.terms[plan.chosen];
   const better = terms.map((x, i) => -sign(R.terms[i]) * (x - plan.mean[i]));
   const best = better.reduce((top, x, i) => (x > better[top] ? i : top), 0);
-  const among = plan.ties > 1 ? `one of ${plan.ties} equally good` : "the best";
+  const least = plan.G[plan.chosen] - plan.G[0] <= 0.002;
+  const among = !least ? "not quite the best" : plan.ties > 1 ? `one of ${plan.ties} equally good` : "the best";
   const why = better[best] > 0.005
     ? `most of all ${WHY[R.terms[best]] || nameOf(R.terms[best])} (${number(better[best])} nats better than the average policy)`
     : "none promises more than another";
