@@ -90,14 +90,13 @@ def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: Fil
     p = p * (message.mass[:, None] * (1.0 - options.displacement))
     source, slot = np.nonzero((keys >= 0) & (p > 0.0))
     places, p, told = keys[source, slot], p[source, slot], told[source, slot]
-    places, source, told = (np.concatenate([x, x]) for x in (places, source, told))
-    many = len(p)
-    positions = np.concatenate([ahead[source[:many]], message.positions[source[many:]]])
+    positions = np.concatenate([ahead[source], message.positions[source]])
+    places, source = np.concatenate([places, places]), np.concatenate([source, source])
     weight = np.concatenate([p * moves, p * (1.0 - moves)]) * map_.A_p.probability(positions, places)
     fits = np.flatnonzero((positions >= 0) & (weight > 0.0))
-    places = places[fits]
+    places, told = places[fits], np.concatenate([told, told])[fits]
     like = likelihood(map_, places, evidence.sight, evidence.open)
-    return _Candidates(places, positions[fits], weight[fits], source[fits], told[fits], like)
+    return _Candidates(places, positions[fits], weight[fits], source[fits], told, like)
 
 
 def _displaced(

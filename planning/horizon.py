@@ -164,7 +164,7 @@ def _hope(A: Floats, multiplicity: Floats, log_C: Floats) -> Floats | float:
 
 
 def _frontier(map_: CognitiveMap, places: Ints) -> Floats:
-    """`[R + 1]` squared distance from the origin of places never entered; -1 for others, and for those without position."""
+    """`[R + 1]` squared distance from the origin of places never entered; -1 for others, and without a position."""
     frontier = np.full(len(places) + 1, -1.0)
     new = np.flatnonzero(~map_.visited[places])
     for i, place in zip(new.tolist(), places[new].tolist(), strict=True):

@@ -43,7 +43,9 @@ def _ball(map_: CognitiveMap, places: Ints, look_ahead: int) -> Ints:
     frontier = places.tolist()
     known = set(frontier)
     for _ in range(look_ahead):
-        ahead = {after for place in frontier for after in keys(slice(place * size, (place + 1) * size)).ravel().tolist()}
+        ahead = {
+            after for place in frontier for after in keys(slice(place * size, (place + 1) * size)).ravel().tolist()
+        }
         frontier = [place for place in ahead - known if place >= 0]
         known.update(frontier)
     return np.array(sorted(known), dtype=np.int64)
