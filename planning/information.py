@@ -68,7 +68,7 @@ class Lessons:
     Attributes:
         tables: `T` tables `[R, N + 1]`, N of each its own.
         told: the `t` tables that are not all zero.
-        pieces: `[R * (most + 1), 2 t]` base, then rise, of each told table on each piece of each place.
+        pieces: `[t, 2, R * (most + 1)]` base and rise of each told table on each piece of each place.
         most: the largest N.
     """
 
@@ -88,13 +88,13 @@ class Lessons:
             `[T, n]` nats, summed over places: sum_s reached I_s(visits / reached).
         """
         collected = np.zeros((len(self.tables), len(visits)))
-        if self.told:
-            many = visits / np.maximum(reached, np.finfo(np.float64).tiny)
-            piece = np.minimum(many, self.most).astype(np.int64)
-            piece += np.arange(visits.shape[1]) * (self.most + 1)
-            at, count = self.pieces.take(piece, axis=0), len(self.told)
-            collected[self.told] = np.einsum("nr,nrt->tn", reached, at[..., :count])
-            collected[self.told] += np.einsum("nr,nrt->tn", visits, at[..., count:])
+        row, place = np.nonzero(visits)
+        many, any_ = visits[row, place], reached[row, place]
+        piece = np.minimum(many / any_, self.most).astype(np.int64)
+        piece += place * (self.most + 1)
+        for i, (base, rise) in zip(self.told, self.pieces, strict=True):
+            worth = any_ * base[piece] + many * rise[piece]
+            collected[i] = np.bincount(row, weights=worth, minlength=len(visits))
         return collected
 
 
@@ -102,14 +102,13 @@ def lessons(tables: Sequence[Floats]) -> Lessons:
     """Tables `[R, N + 1]` of information from 0..N visits, zero in column 0, made ready to be read."""
     told = [i for i, table in enumerate(tables) if table.any()]
     most = max(table.shape[1] for table in tables) - 1
-    pieces = np.zeros((len(tables[0]), most + 1, 2 * len(told)))
-    for at, table in enumerate(tables[i] for i in told):
+    pieces = np.zeros((len(told), 2, len(tables[0]), most + 1))
+    for (base, rise), table in zip(pieces, (tables[i] for i in told), strict=True):
         last = table.shape[1] - 1
-        steps = table[:, 1:] - table[:, :-1]
-        pieces[:, :last, len(told) + at] = steps
-        pieces[:, :last, at] = table[:, :-1] - np.arange(last) * steps
-        pieces[:, last:, at] = table[:, -1:]
-    return Lessons(tables, told, pieces.reshape(len(pieces) * (most + 1), -1), most)
+        steps = rise[:, :last] = table[:, 1:] - table[:, :-1]
+        base[:, :last] = table[:, :-1] - np.arange(last) * steps
+        base[:, last:] = table[:, -1:]
+    return Lessons(tables, told, pieces.reshape(len(told), 2, -1), most)
 
 
 def collected_information(tables: Sequence[Floats], visits: Floats, reached: Floats) -> Floats:

@@ -217,10 +217,14 @@ def _roll(tables: _Tables, prefixes: Prefixes) -> _Rolled:
 def _gains(tables: _Tables, prefixes: Prefixes, rolled: _Rolled) -> Floats:
     """`[6, N]` what the last step of each prefix adds to the terms, undiscounted."""
     parent, action = prefixes.parent, prefixes.action
-    expected = rolled.belief @ tables.linear
+    belief, A, linear = rolled.belief, tables.A, tables.linear
+    if belief.shape[1] > FEW:
+        held = np.flatnonzero(belief.any(axis=0))
+        belief, A, linear = belief[:, held], A[held], linear[held]
+    expected = belief @ linear
     learned = tables.lessons.collected(rolled.visits, rolled.reached)
     gains = np.empty((6, len(prefixes)))
-    gains[0] = (action != tables.stay) * (_entropy(rolled.belief @ tables.A) - expected[:, 0])
+    gains[0] = (action != tables.stay) * (_entropy(belief @ A) - expected[:, 0])
     gains[1:4] = learned - learned[:, parent]
     gains[4] = expected[:, 1]
     gains[5] = expected[parent, 2 + action]
