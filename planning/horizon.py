@@ -56,7 +56,10 @@ class Preferences:
 
     def log_C_place(self, places: Ints) -> Floats:
         """`[n]` log preference of being in each of `places`."""
-        return np.array([self.places.get(place, 0.0) for place in places.tolist()])
+        log_C = np.zeros(len(places))
+        for place, value in self.places.items():
+            log_C[places == place] = value
+        return log_C
 
 
 def cut_reach(
@@ -130,10 +133,13 @@ def _likeliest_starts(places: Ints, belief: Floats) -> tuple[Ints, Floats, float
 
 
 def _promising(map_: CognitiveMap, preferences: Preferences, places: Ints) -> NDArray[np.bool_]:
-    hoped = [key for key, value in preferences.sights.items() if value > 0.0 and key >= 0]
-    promising = ~map_.visited[places] | (preferences.log_C_place(places) > 0.0)
-    for key in hoped:
-        promising |= map_.A_o.probability(key, places) > PROMISING
+    promising = ~map_.visited[places]
+    for place, value in preferences.places.items():
+        if value > 0.0:
+            promising |= places == place
+    for sight, value in preferences.sights.items():
+        if value > 0.0 and sight >= 0:
+            promising |= map_.A_o.probability(sight, places) > PROMISING
     return promising
 
 

@@ -42,12 +42,20 @@ class Kept:
 
     def rows(self, wanted: Ints) -> Rows:
         """The rows of these numbers, copied."""
-        if len(wanted) and wanted.max() >= len(self._known):
-            self._make_room(int(wanted.max()) + 1)
-        missing = wanted[~self._known[wanted]]
-        if len(missing):
-            self._take_in(missing, wanted)
+        self._know(wanted)
         return tuple(column[wanted] for column in self._columns)
+
+    def row_of(self, column: int, wanted: Ints) -> NDArray[Any]:
+        """The rows of one of the arrays alone."""
+        self._know(wanted)
+        return self._columns[column][wanted]
+
+    def _know(self, wanted: Ints) -> None:
+        if len(wanted) and (most := int(wanted.max())) >= len(self._known):
+            self._make_room(most + 1)
+        known = self._known[wanted]
+        if not known.all():
+            self._take_in(wanted[~known], wanted)
 
     def _take_in(self, missing: Ints, wanted: Ints) -> None:
         values = self._compute(missing)

@@ -83,7 +83,7 @@ class Outlook:
 
     def ways(self, places: Ints) -> Ints:
         """`[n, K]` where each action most probably leads to; -1 where that is nowhere else, or not known."""
-        return self._doors.rows(places)[2]
+        return self._doors.row_of(2, places)
 
     def sights(self, places: Ints) -> tuple[Floats, Floats]:
         """What visits teach of A_o and of A_p, `[n, N + 1]` nats each."""

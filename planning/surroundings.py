@@ -53,25 +53,25 @@ def _ball(map_: CognitiveMap, places: Ints, look_ahead: int) -> Ints:
 
 def _ways(outlook: Outlook, places: Ints, promising: Promising) -> Ints:
     """The places on the shortest likely ways to the nearest promising places."""
-    parent: dict[int, int] = {place: place for place in places.tolist()}
-    frontier = list(parent)
-    while frontier:
-        found = np.flatnonzero(promising(np.array(frontier)))[:FAR].tolist()
-        if found:
-            return _traced(parent, [frontier[i] for i in found])
+    parent: dict[int, int] = {-1: -1, **{place: place for place in places.tolist()}}  # nowhere is no place to go on from
+    frontier = places
+    while len(frontier):
+        found = promising(frontier)
+        if found.any():
+            return _traced(parent, frontier[found][:FAR].tolist())
         frontier = _next(outlook, frontier, parent)
     return places[:0]
 
 
-def _next(outlook: Outlook, frontier: list[int], parent: dict[int, int]) -> list[int]:
+def _next(outlook: Outlook, frontier: Ints, parent: dict[int, int]) -> Ints:
     """The places one likely step further, in the order in which they are met; enters their parents."""
     reached: list[int] = []
-    for place, row in zip(frontier, outlook.ways(np.array(frontier)).tolist(), strict=True):
+    for place, row in zip(frontier.tolist(), outlook.ways(frontier).tolist(), strict=True):
         for after in row:
-            if after >= 0 and after not in parent:
+            if after not in parent:
                 parent[after] = place
                 reached.append(after)
-    return reached
+    return np.array(reached, dtype=np.int64)
 
 
 def _traced(parent: dict[int, int], ends: list[int]) -> Ints:
