@@ -334,6 +334,7 @@ class Agent:
             preferences=self._preferences(wishes),
             discount=settings.discount,
             information_weight=settings.information_weight,
+            starts=settings.starts,
             outlook=self._outlook,
         )
         return consider(

@@ -15,6 +15,7 @@ from ..model.errors import CogmapError
 from ..model.growth import GROWTHS
 from ..model.learning import Rates
 from ..planning import CHOICES, GENERATORS
+from ..planning.horizon import STARTS
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,6 +30,8 @@ class Settings:
         policies: policy generator: `map_guided` (ours), or `exhaustive`, `self_avoiding`, `l_shaped` (paper's
             appendix on policies).
         beam: prefixes that `map_guided` keeps a level.
+        starts: places that the agent may be at from which a plan sets out; belief in others is left out of the plan,
+            and counted in `Plan.dropped`.
         precision: γ in P(π) = softmax(-γ G) (paper: 16).
         choice: `outward` takes a policy of the least G, ties broken by the seed, and while it only explores one that is
             nearly as good if that leads further out (ours); `best` the least G always; `sampled` draws from P(π).
@@ -53,6 +56,7 @@ class Settings:
     look_ahead: int = 6
     policies: str = "map_guided"
     beam: int = 64
+    starts: int = STARTS
     precision: float = 16.0
     choice: str = "outward"
     growth: str = "predicted"
@@ -72,7 +76,7 @@ class Settings:
     def __post_init__(self) -> None:
         for name, kind in _NESTED.items():
             _check(isinstance(getattr(self, name), kind), name, getattr(self, name), f"use a {kind.__name__}")
-        for name in ("look_ahead", "beam", "window", "places"):
+        for name in ("look_ahead", "beam", "starts", "window", "places"):
             value = getattr(self, name)
             optional = name == "places" and value is None
             _check(

@@ -17,8 +17,8 @@ from .reach import Floats, Ints, Reach
 from .surroundings import surroundings
 from .transitions import Transitions
 
-MOST = 32
-"""Places that the agent may be at from which a plan sets out, at most; belief in others is dropped, and counted."""
+STARTS = 32
+"""Places that the agent may be at from which a plan sets out, at most, unless told."""
 
 PROMISING = 0.1
 """Nats that a first visit must be worth for a place to be a goal of long ways."""
@@ -72,17 +72,18 @@ def cut_reach(
     preferences: Preferences,
     discount: float = 1.0,
     information_weight: float = 1.0,
+    starts: int = STARTS,
     outlook: Outlook | None = None,
 ) -> Reach:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
     Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
-    nearest places that are. Of a belief over more than `MOST` places the likeliest remain (see `Reach.dropped`).
+    nearest places that are. Of a belief over more than `starts` places the likeliest remain (see `Reach.dropped`).
     What an `outlook` of the map has kept from the last step is not worked out again.
     """
     outlook = outlook or Outlook(map_, look_ahead)
     outlook.refresh()
-    places, belief, dropped = _likeliest_starts(places, belief)
+    places, belief, dropped = _likeliest_starts(places, belief, starts)
     hopeful = preferences.known or len(map_.visited_places) < len(map_.places)
     within = surroundings(map_, outlook, places, look_ahead, partial(_promising, map_, preferences), hopeful=hopeful)
     R, at = len(within), within.searchsorted(places)
@@ -121,13 +122,13 @@ def cut_reach(
     )
 
 
-def _likeliest_starts(places: Ints, belief: Floats) -> tuple[Ints, Floats, float]:
-    """The `MOST` likeliest places, ascending, their share of the belief, and the belief in the others."""
-    if len(places) <= MOST:
+def _likeliest_starts(places: Ints, belief: Floats, most: int) -> tuple[Ints, Floats, float]:
+    """The likeliest places, ascending, their share of the belief, and the belief in the others."""
+    if len(places) <= most:
         return places, belief, 0.0
     # of equals, some from everywhere: places with near numbers are near each other, and look alike
     order = np.lexsort((np.arange(len(places)) * 0.6180339887498949 % 1.0, -belief))
-    kept = np.sort(order[:MOST])
+    kept = np.sort(order[:most])
     mass = float(belief[kept].sum())
     return places[kept], belief[kept] / mass, max(float(belief.sum()) - mass, 0.0)
 

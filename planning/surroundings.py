@@ -53,7 +53,10 @@ def _ball(map_: CognitiveMap, places: Ints, look_ahead: int) -> Ints:
 
 def _ways(outlook: Outlook, places: Ints, promising: Promising) -> Ints:
     """The places on the shortest likely ways to the nearest promising places."""
-    parent: dict[int, int] = {-1: -1, **{place: place for place in places.tolist()}}  # nowhere is no place to go on from
+    parent: dict[int, int] = {
+        -1: -1,
+        **{place: place for place in places.tolist()},
+    }  # nowhere is no place to go on from
     frontier = places
     while len(frontier):
         found = promising(frontier)

@@ -96,18 +96,18 @@ def test_the_cost_of_a_plan_is_that_of_the_neighbourhood() -> None:
     assert reach_of(corridor(4000), 2000).B.shape == reach_of(corridor(40), 20).B.shape
 
 
-@pytest.mark.parametrize("many", [horizon.MOST, horizon.MOST + 60])
+@pytest.mark.parametrize("many", [horizon.STARTS, horizon.STARTS + 60])
 def test_a_plan_of_a_lost_agent_sets_out_from_the_likeliest_places_and_counts_the_others(many: int) -> None:
     map_, places = corridor(400), np.arange(many) * 4
     belief = np.linspace(1.0, 2.0, many) / np.linspace(1.0, 2.0, many).sum()
     reach = cut_reach(map_, places, belief, open_=OPEN, look_ahead=3, preferences=Preferences())
-    kept = belief[-horizon.MOST :]
+    kept = belief[-horizon.STARTS :]
     reach.check()
     assert reach.dropped == pytest.approx(1.0 - kept.sum())
     assert plan(reach, rng=np.random.default_rng(0)).dropped == reach.dropped
-    at = np.searchsorted(reach.places[:-1], places[-horizon.MOST :])
+    at = np.searchsorted(reach.places[:-1], places[-horizon.STARTS :])
     np.testing.assert_allclose(reach.belief[at], kept / kept.sum())
-    assert np.count_nonzero(reach.belief) == horizon.MOST
+    assert np.count_nonzero(reach.belief) == horizon.STARTS
 
 
 def test_of_places_equally_likely_those_kept_are_from_everywhere() -> None:

@@ -1,0 +1,100 @@
+"""The prefix tree of policies, and what is kept of rows: against their definitions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from cogmap.model.distinct import distinct
+from cogmap.model.journal import MOST, Journal
+from cogmap.planning.kept import Kept
+from cogmap.planning.prefixes import prefixes_of
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 10**6), st.integers(1, 30), st.integers(1, 6), st.integers(1, 4))
+def test_every_distinct_prefix_is_there_once(seed: int, policies: int, length: int, kinds: int) -> None:
+    actions = np.random.default_rng(seed).integers(0, kinds, (policies, length))
+    tree = prefixes_of(actions)
+    wanted = {tuple(row[:t]) for row in actions.tolist() for t in range(length + 1)}
+    assert len(tree) == len(wanted) == tree.level[-1]
+    for policy, row in enumerate(actions.tolist()):
+        at = 0
+        for t, action in enumerate(row):
+            node = int(tree.of[policy, t])
+            assert (tree.parent[node], tree.action[node], tree.length[node]) == (at, action, t + 1)
+            assert tree.level[t + 1] <= node < tree.level[t + 2]
+            at = node
+
+
+@given(st.lists(st.integers(-3, 9), max_size=12))
+def test_distinct_is_unique_with_its_inverse(values: list[int]) -> None:
+    found, index = distinct(np.array(values, dtype=np.int64))
+    wanted, inverse = np.unique(np.array(values, dtype=np.int64), return_inverse=True)
+    np.testing.assert_array_equal(found, wanted)
+    np.testing.assert_array_equal(index, inverse)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.tuples(st.sampled_from(["ask", "forget", "all"]), st.sets(st.integers(0, 40))), max_size=25))
+def test_rows_are_worked_out_once_and_again_after_they_are_forgotten(ops: list[tuple[str, set[int]]]) -> None:
+    truth: dict[int, int] = {}
+    asked: list[int] = []
+
+    def compute(rows: np.ndarray) -> tuple[np.ndarray, ...]:
+        asked.extend(rows.tolist())
+        return np.array([[truth[row], row] for row in rows.tolist()]), rows * 2
+
+    kept = Kept(compute)
+    known: set[int] = set()
+    for step, (op, rows) in enumerate(ops):
+        if op != "ask":
+            kept.forget(None if op == "all" else sorted(rows))
+            known -= known if op == "all" else rows
+            continue
+        wanted = np.array(sorted(rows), dtype=np.int64)
+        truth.update(dict.fromkeys(rows - known, step))
+        asked.clear()
+        if len(wanted):
+            first, second = kept.rows(wanted)
+            assert first.tolist() == [[truth[row], row] for row in sorted(rows)]
+            np.testing.assert_array_equal(second, wanted * 2)
+            np.testing.assert_array_equal(kept.row_of(1, wanted), second)
+        assert set(asked) == rows - known
+        known |= rows
+
+
+def test_rows_that_become_wider_are_worked_out_again() -> None:
+    width = 1
+    kept = Kept(lambda rows: (np.repeat(rows[:, None], width, axis=1),))
+    assert kept.rows(np.array([3, 1]))[0].tolist() == [[3], [1]]
+    width = 2
+    assert kept.rows(np.array([1]))[0].tolist() == [[1]]  # nobody said that it had changed
+    assert kept.rows(np.array([1, 7]))[0].tolist() == [[1, 1], [7, 7]]
+    assert kept.rows(np.array([3]))[0].tolist() == [[3, 3]]
+
+
+def test_a_journal_tells_each_reader_what_is_new() -> None:
+    journal = Journal()
+    assert journal.since(-1) == (None, 0)
+    for row in (3, 5, 3):
+        journal.note(row)
+    rows, read = journal.since(0)
+    assert rows == [3, 5, 3]
+    assert journal.since(1)[0] == [5, 3]
+    assert journal.since(read) == ([], read)
+    journal.note(None)
+    assert journal.since(read)[0] is None
+    _, read = journal.since(read)
+    assert journal.since(read)[0] == []
+
+
+@pytest.mark.parametrize("changes", [MOST, 5 * MOST])
+def test_a_journal_that_forgot_says_that_any_row_may_have_changed(changes: int) -> None:
+    journal, (_, read) = Journal(), Journal().since(-1)
+    for row in range(changes):
+        journal.note(row)
+    assert journal.since(read)[0] == (list(range(changes)) if changes <= MOST else None)
+    late = journal.since(read)[1] - MOST
+    assert journal.since(late)[0] == list(range(changes - MOST, changes))
