@@ -88,6 +88,8 @@ class Lessons:
             `[T, n]` nats, summed over places: sum_s reached I_s(visits / reached).
         """
         collected = np.zeros((len(self.tables), len(visits)))
+        if not self.told:
+            return collected
         row, place = np.nonzero(visits)
         many, any_ = visits[row, place], reached[row, place]
         piece = np.minimum(many / any_, self.most).astype(np.int64)
@@ -108,7 +110,7 @@ def lessons(tables: Sequence[Floats]) -> Lessons:
         steps = rise[:, :last] = table[:, 1:] - table[:, :-1]
         base[:, :last] = table[:, :-1] - np.arange(last) * steps
         base[:, last:] = table[:, -1:]
-    return Lessons(tables, told, pieces.reshape(len(told), 2, -1), most)
+    return Lessons(tables, told, pieces.reshape(len(told), 2, len(tables[0]) * (most + 1)), most)
 
 
 def collected_information(tables: Sequence[Floats], visits: Floats, reached: Floats) -> Floats:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..model.errors import CogmapError
 from .information import Lessons, lessons
 from .policies.base import Policies
+from .prediction import FEW, Predict, predictor
 from .prefixes import Prefixes, prefixes_of
 from .reach import Reach
 from .staying import geometric, staying_teaches
@@ -18,7 +19,6 @@ from .transitions import Transitions
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 CHUNK = 200_000  # numbers in the larger arrays; more policies are evaluated in parts
-FEW = 64  # places up to which a dense product is quicker than going through the successors
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +122,7 @@ class _Tables:
     """The tables of `Reach` laid out for the rollout."""
 
     belief: Floats  # [R]
-    B: Floats | Transitions  # [R, K * R], B[s, (a, s')], or where the places are many their successors
+    predict: Predict
     A: Floats  # [R, O]
     linear: Floats  # [R, 2 + K] ambiguity H[A[:, s]], without the multiplicity, which cancels in the state information;
     # expected log preference; expected cost of collision of each action
@@ -141,7 +141,7 @@ class _Tables:
         risk = reach.collision_cost * reach.collision[at]
         return cls(
             belief=reach.belief[at],
-            B=_laid_out(B),
+            predict=predictor(B),
             A=A,
             linear=np.concatenate([_entropy(A)[:, None], reach.utility[at, None], risk], axis=1),
             lessons=lessons(
@@ -151,13 +151,6 @@ class _Tables:
             stay=reach.motions.stay,
             settled=isinstance(B, Transitions) and B.settled(reach.motions.stay),
         )
-
-
-def _laid_out(B: Floats | Transitions) -> Floats | Transitions:
-    if isinstance(B, Transitions) and len(B.successors) > FEW:
-        return B
-    by_place = B.by_place if isinstance(B, Transitions) else np.ascontiguousarray(B.transpose(1, 2, 0))
-    return by_place.reshape(len(by_place), -1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,19 +189,14 @@ def _moving(tables: _Tables, actions: Ints) -> int:
 
 
 def _roll(tables: _Tables, prefixes: Prefixes) -> _Rolled:
-    """Beliefs rolled forward, one product a level for all actions of all prefixes."""
+    """Beliefs rolled forward, level by level."""
     size = len(tables.belief)
     belief, visits, reached = np.zeros((3, len(prefixes), size))
     belief[0] = tables.belief
-    level, kinds = prefixes.level, tables.linear.shape[1] - 2
-    child = prefixes.parent * kinds + prefixes.action
+    level = prefixes.level
     for above, begin, end in zip(level, level[1:], level[2:], strict=False):
-        parent, after = prefixes.parent[begin:end], belief[begin:end]
-        if isinstance(tables.B, Transitions):
-            after[:] = tables.B.predicted(belief[parent], prefixes.action[begin:end])
-        else:
-            every = (belief[above:begin] @ tables.B).reshape(-1, size)
-            every.take(child[begin:end] - above * kinds, axis=0, out=after)
+        parent, action = prefixes.parent[begin:end], prefixes.action[begin:end]
+        after = belief[begin:end] = tables.predict(belief[above:begin], parent - above, action)
         np.add(visits[parent], after, out=visits[begin:end])
         np.maximum(reached[parent], after, out=reached[begin:end])
     return _Rolled(belief, visits, reached)

@@ -15,6 +15,7 @@ from cogmap.planning import (
     evaluate,
     evaluate_plain,
     map_guided,
+    prediction,
     rollout,
 )
 from hypothesis import given, settings
@@ -54,6 +55,7 @@ def test_successors_give_what_the_dense_table_gives(seed: int, places: int, slot
     reach.check()
     policies = GENERATORS["self_avoiding"](reach)
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(prediction, "FEW", few)
         patch.setattr(rollout, "FEW", few)
         ours = evaluate(reach, policies)
     assert_same(ours, evaluate_plain(reach, policies))
