@@ -37,7 +37,9 @@ def walk(world_name: str, steps: int, settings: Settings, seed: int, seconds: fl
     made, end = 0, time.perf_counter() + seconds
     begin = time.process_time()
     agent = Agent(world.motions, settings=settings, seed=seed)
-    while made < steps and (made == 0 or time.perf_counter() < end):  # asking for processor time is slow on some machines
+    while made < steps and (
+        made == 0 or time.perf_counter() < end
+    ):  # asking for processor time is slow on some machines
         observation, *_ = world.step(agent.step(observation))
         made += 1
     return (time.process_time() - begin) * steps / made, made

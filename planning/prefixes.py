@@ -31,9 +31,9 @@ class Prefixes:
         return len(self.parent)
 
     @property
-    def length(self) -> Ints:
-        """`[N]` steps of each prefix."""
-        return np.repeat(np.arange(len(self.level) - 1), np.diff(self.level))
+    def levels(self) -> list[tuple[int, int, int]]:
+        """For each length from 1 on: where the prefixes one step shorter begin, and where these begin and end."""
+        return list(zip(self.level, self.level[1:], self.level[2:], strict=False))
 
 
 def prefixes_of(actions: Ints) -> Prefixes:

@@ -90,31 +90,32 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
     actions = policies.actions
     if actions.min() < 0 or actions.max() >= len(reach.motions):
         raise CogmapError(f"evaluate: actions must be 0..{len(reach.motions) - 1}; one policy has another")
-    terms = np.empty((6, len(actions)))
-    for rows, columns in _groups(reach, actions):
-        terms[:, rows] = _in_parts(_Tables.of(reach, columns), actions[rows])
+    terms = _in_groups(reach, policies)
     terms[:4] *= reach.information_weight
     return ExpectedFreeEnergy(*terms)
 
 
-def _groups(reach: Reach, actions: Ints) -> list[tuple[Ints, Ints]]:
-    """Policies that see the same places, and these: most move for a few steps only, where one may move for hundreds."""
-    all_ = np.arange(len(actions)), np.arange(len(reach.belief))
+def _in_groups(reach: Reach, policies: Policies) -> Floats:
+    """`[6, P]` terms: most policies move for a few steps only and see what is near, where one may move for hundreds."""
+    actions, every = policies.actions, np.arange(len(reach.belief))
     if actions.shape[1] <= reach.look_ahead or not isinstance(reach.B, Transitions):
-        return [all_]
+        return _in_parts(_Tables.of(reach, every), policies)
     far = (actions[:, reach.look_ahead :] != reach.motions.stay).any(axis=1)
-    if far.all():
-        return [all_]
     near = reach.B.reachable(np.flatnonzero(reach.belief), reach.look_ahead)
-    groups = [(np.flatnonzero(~far), near), (np.flatnonzero(far), all_[1])]
-    return groups[: 1 + bool(far.any())]
+    terms = np.empty((6, len(actions)))
+    for rows, columns in ((~far, near), (far, every)):
+        if rows.any():
+            terms[:, rows] = _in_parts(_Tables.of(reach, columns), Policies(actions[rows]))
+    return terms
 
 
-def _in_parts(tables: _Tables, actions: Ints) -> Floats:
+def _in_parts(tables: _Tables, policies: Policies) -> Floats:
     """`[6, P]` the terms of each policy."""
-    size = max(1, CHUNK // (len(tables.belief) * actions.shape[1]))
-    parts = [_evaluate(tables, actions[i : i + size]) for i in range(0, len(actions), size)]
-    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+    size = max(1, CHUNK // (len(tables.belief) * policies.actions.shape[1]))
+    if len(policies) <= size:
+        return _evaluate(tables, policies)
+    parts = (Policies(policies.actions[i : i + size]) for i in range(0, len(policies), size))
+    return np.concatenate([_evaluate(tables, part) for part in parts], axis=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,19 +163,16 @@ class _Rolled:
     reached: Floats  # [N, R] probability of any visit so far
 
 
-def _evaluate(tables: _Tables, actions: Ints) -> Floats:
+def _evaluate(tables: _Tables, policies: Policies) -> Floats:
     """`[6, P]` the terms of each policy."""
-    length = actions.shape[1]
-    moving = _moving(tables, actions) if tables.settled else length
-    prefixes = prefixes_of(actions[:, :moving])
-    rolled = _roll(tables, prefixes)
-    gains = _gains(tables, prefixes, rolled)
-    gains *= tables.discount ** (prefixes.length - 1.0)
-    total = gains.take(prefixes.of, axis=1).sum(axis=2)
+    length = policies.actions.shape[1]
+    moving = _moving(tables, policies.actions) if tables.settled else length
+    prefixes = policies.prefixes if moving == length else prefixes_of(policies.actions[:, :moving])
+    rolled, ends = _roll(tables, prefixes), prefixes.of[:, -1]
+    total = _summed(tables, prefixes, _gains(tables, prefixes, rolled)).take(ends, axis=1)
     if moving < length:
-        last = prefixes.of[:, -1]
-        ends = _Rolled(rolled.belief[last], rolled.visits[last], rolled.reached[last])
-        total += tables.discount**moving * _stay(tables, ends, length - moving)
+        last = _Rolled(rolled.belief[ends], rolled.visits[ends], rolled.reached[ends])
+        total += tables.discount**moving * _stay(tables, last, length - moving)
     return total
 
 
@@ -193,37 +191,50 @@ def _roll(tables: _Tables, prefixes: Prefixes) -> _Rolled:
     size = len(tables.belief)
     belief, visits, reached = np.zeros((3, len(prefixes), size))
     belief[0] = tables.belief
-    level = prefixes.level
-    for above, begin, end in zip(level, level[1:], level[2:], strict=False):
+    for above, begin, end in prefixes.levels:
         parent, action = prefixes.parent[begin:end], prefixes.action[begin:end]
         after = belief[begin:end] = tables.predict(belief[above:begin], parent - above, action)
-        np.add(visits[parent], after, out=visits[begin:end])
-        np.maximum(reached[parent], after, out=reached[begin:end])
+        if tables.lessons.told:  # else nobody asks for visits
+            np.add(visits[parent], after, out=visits[begin:end])
+            np.maximum(reached[parent], after, out=reached[begin:end])
     return _Rolled(belief, visits, reached)
 
 
 def _gains(tables: _Tables, prefixes: Prefixes, rolled: _Rolled) -> Floats:
     """`[6, N]` what the last step of each prefix adds to the terms, undiscounted."""
     parent, action = prefixes.parent, prefixes.action
-    belief, A, linear = rolled.belief, tables.A, tables.linear
+    belief, likelihood, linear = rolled.belief, tables.A, tables.linear
     if belief.shape[1] > FEW:
         held = np.flatnonzero(belief.any(axis=0))
-        belief, A, linear = belief[:, held], A[held], linear[held]
+        belief, likelihood, linear = belief[:, held], likelihood[held], linear[held]
     expected = belief @ linear
     learned = tables.lessons.collected(rolled.visits, rolled.reached)
     gains = np.empty((6, len(prefixes)))
-    gains[0] = (action != tables.stay) * (_entropy(belief @ A) - expected[:, 0])
+    gains[0] = (action != tables.stay) * (_entropy(belief @ likelihood) - expected[:, 0])
     gains[1:4] = learned - learned[:, parent]
     gains[4] = expected[:, 1]
     gains[5] = expected[parent, 2 + action]
     return gains
 
 
+def _summed(tables: _Tables, prefixes: Prefixes, gains: Floats) -> Floats:
+    """`[6, N]` the discounted gains of all steps of each prefix; takes the place of `gains`."""
+    weight = 1.0
+    for _, begin, end in prefixes.levels:
+        step = gains[:, begin:end]
+        step *= weight
+        if begin > 1:  # the empty prefix has gained nothing
+            step += gains.take(prefixes.parent[begin:end], axis=1)
+        weight *= tables.discount
+    return gains
+
+
 def _stay(tables: _Tables, ends: _Rolled, steps: int) -> Floats:
     """`[6, P]` what so many steps that stay add to the terms, the first of them at weight one."""
     gains = np.zeros((6, len(ends.belief)))
-    seen = ends.belief, ends.visits, ends.reached
-    gains[1:4] = staying_teaches(tables.lessons.tables, *seen, steps=steps, discount=tables.discount)
+    if tables.lessons.told:
+        seen = ends.belief, ends.visits, ends.reached
+        gains[1:4] = staying_teaches(tables.lessons.tables, *seen, steps=steps, discount=tables.discount)
     expected = ends.belief @ tables.linear
     weight = geometric(tables.discount, steps)
     gains[4] = weight * expected[:, 1]

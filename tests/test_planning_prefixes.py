@@ -23,8 +23,9 @@ def test_every_distinct_prefix_is_there_once(seed: int, policies: int, length: i
         at = 0
         for t, action in enumerate(row):
             node = int(tree.of[policy, t])
-            assert (tree.parent[node], tree.action[node], tree.length[node]) == (at, action, t + 1)
-            assert tree.level[t + 1] <= node < tree.level[t + 2]
+            above, begin, end = tree.levels[t]
+            assert (tree.parent[node], tree.action[node]) == (at, action)
+            assert above <= at < begin <= node < end
             at = node
 
 

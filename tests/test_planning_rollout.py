@@ -77,6 +77,11 @@ def test_policies_that_stay_for_long_beside_one_that_moves_for_long(seed: int, p
         actions[-1, :30] = rng.integers(0, 4, 30)
     policies = Policies(actions)
     assert_same(evaluate(reach, policies), evaluate_plain(reach, policies))
+    nothing = np.zeros_like(reach.sight_information)
+    known = replace(
+        reach, sight_information=nothing, position_information=nothing, transition_information=nothing
+    )  # nothing is left to learn
+    assert_same(evaluate(known, policies), evaluate_plain(known, policies))
 
 
 def test_equals_the_plain_evaluation_beyond_the_tables() -> None:

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...model.errors import CogmapError
+from ..prefixes import Prefixes, prefixes_of
 
 Ints = NDArray[np.int64]
 MAX_POLICIES = 2_000_000
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Policies:
     """The action sequences to compare.
 
@@ -38,6 +40,11 @@ class Policies:
 
     def __len__(self) -> int:
         return len(self.actions)
+
+    @cached_property
+    def prefixes(self) -> Prefixes:
+        """Their prefix tree; worked out once, however often they are evaluated."""
+        return prefixes_of(self.actions)
 
 
 def padded(paths: Iterable[tuple[int, ...]], *, stay: int, length: int) -> Ints:
