@@ -88,8 +88,6 @@ class Lessons:
             `[T, n]` nats, summed over places: sum_s reached I_s(visits / reached).
         """
         collected = np.zeros((len(self.tables), len(visits)))
-        if not self.told:
-            return collected
         row, place = np.nonzero(visits)
         many, any_ = visits[row, place], reached[row, place]
         piece = np.minimum(many / any_, self.most).astype(np.int64)
@@ -104,6 +102,8 @@ def lessons(tables: Sequence[Floats]) -> Lessons:
     """Tables `[R, N + 1]` of information from 0..N visits, zero in column 0, made ready to be read."""
     told = [i for i, table in enumerate(tables) if table.any()]
     most = max(table.shape[1] for table in tables) - 1
+    if not told:
+        return Lessons(tables, told, np.zeros((0, 2, 0)), most)
     pieces = np.zeros((len(told), 2, len(tables[0]), most + 1))
     for (base, rise), table in zip(pieces, (tables[i] for i in told), strict=True):
         last = table.shape[1] - 1

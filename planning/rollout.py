@@ -87,8 +87,8 @@ def evaluate(reach: Reach, policies: Policies) -> ExpectedFreeEnergy:
     Raises:
         CogmapError: an action index that the motions do not have.
     """
-    actions = policies.actions
-    if actions.min() < 0 or actions.max() >= len(reach.motions):
+    least, most = policies.span
+    if least < 0 or most >= len(reach.motions):
         raise CogmapError(f"evaluate: actions must be 0..{len(reach.motions) - 1}; one policy has another")
     terms = _in_groups(reach, policies)
     terms[:4] *= reach.information_weight
@@ -208,10 +208,11 @@ def _gains(tables: _Tables, prefixes: Prefixes, rolled: _Rolled) -> Floats:
         held = np.flatnonzero(belief.any(axis=0))
         belief, likelihood, linear = belief[:, held], likelihood[held], linear[held]
     expected = belief @ linear
-    learned = tables.lessons.collected(rolled.visits, rolled.reached)
-    gains = np.empty((6, len(prefixes)))
+    gains = np.zeros((6, len(prefixes)))
     gains[0] = (action != tables.stay) * (_entropy(belief @ likelihood) - expected[:, 0])
-    gains[1:4] = learned - learned[:, parent]
+    if tables.lessons.told:
+        learned = tables.lessons.collected(rolled.visits, rolled.reached)
+        np.subtract(learned, learned[:, parent], out=gains[1:4])
     gains[4] = expected[:, 1]
     gains[5] = expected[parent, 2 + action]
     return gains

@@ -42,6 +42,11 @@ class Policies:
         return len(self.actions)
 
     @cached_property
+    def span(self) -> tuple[int, int]:
+        """The least and the greatest action index."""
+        return int(self.actions.min()), int(self.actions.max())
+
+    @cached_property
     def prefixes(self) -> Prefixes:
         """Their prefix tree; worked out once, however often they are evaluated."""
         return prefixes_of(self.actions)
