@@ -22,6 +22,7 @@ import venv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 import numpy as np
@@ -76,6 +77,15 @@ def measured(python: Path | str, peer: Peer, problems: Sequence[Path], seconds: 
         return json.loads(result.read_text())
 
 
+def together(rounds: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Of several reports of one side: the last, with the median time of each call."""
+    rows = [{**row} for row in rounds[-1]["rows"]]
+    for i, row in enumerate(rows):
+        for call in ("inference", "planning"):
+            row[call] = median(report["rows"][i][call] for report in rounds)
+    return {**rounds[-1], "rows": rows}
+
+
 def _one_core() -> None:
     if hasattr(os, "sched_setaffinity"):  # not on macOS
         os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
@@ -119,7 +129,8 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
         "--length", type=int, default=5, help="of the policies: all self-avoiding walks of so many steps"
     )
     parser.add_argument("--peers", nargs="*", default=list(PEERS), choices=[*PEERS, []])
-    parser.add_argument("--seconds", type=float, default=5.0, help="for each call, each library and each size")
+    parser.add_argument("--seconds", type=float, default=2.0, help="for each call, library, size and round")
+    parser.add_argument("--rounds", type=int, default=5, help="in which the libraries take turns")
     parser.add_argument("--folder", type=Path, default=Path(tempfile.gettempdir()) / "cogmap-peers")
     parser.add_argument("--json", type=Path)
     return parser.parse_args(given)
@@ -128,19 +139,24 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
     asked = _arguments(given)
-    sides: dict[str, dict[str, Any]] = {}
     with tempfile.TemporaryDirectory() as folder:
         problems = [Path(folder) / f"{count}.npz" for count in asked.places]
         for count, path in zip(asked.places, problems, strict=True):
             problem = grid_problem(math.isqrt(count), asked.length)
             np.savez(path, **problem)
-        sides["cogmap"] = measured(sys.executable, Peer("", "side_cogmap.py"), problems, asked.seconds)
-        for name in asked.peers:
-            python = python_with(PEERS[name].requirement, asked.folder)
-            sides[name] = measured(python, PEERS[name], problems, asked.seconds)
+        pythons = {name: python_with(PEERS[name].requirement, asked.folder) for name in asked.peers}
+        turns = {"cogmap": (sys.executable, Peer("", "side_cogmap.py"))}
+        turns |= {name: (python, PEERS[name]) for name, python in pythons.items()}
+        rounds = [
+            {name: measured(*turn, problems, asked.seconds) for name, turn in turns.items()}
+            for _ in range(max(1, asked.rounds))
+        ]
+        sides = {name: together([reports[name] for reports in rounds]) for name in turns}
     rows = table(asked.places, sides)
     versions = {name: side["versions"] for name, side in sides.items()}
-    print(f"{len(problem['policies'])} policies of {asked.length} steps; milliseconds, medians of warm calls")
+    print(
+        f"{len(problem['policies'])} policies of {asked.length} steps; milliseconds, medians of warm calls and rounds"
+    )
     for name, found in versions.items():
         print(f"  {name}: " + ", ".join(f"{package} {number}" for package, number in found.items()))
     print(f"{'places':>6}  {'library':16} {'inference':>10} {'planning':>10} {'ratio':>8}  posterior and G differ by")
