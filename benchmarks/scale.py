@@ -29,6 +29,7 @@ import numpy as np
 from cogmap.agent import Agent, Settings
 from cogmap.baselines import FrontierAgent
 from cogmap.experiments import Truth
+from cogmap.planning import CHOICES
 from cogmap.planning.outlook import Outlook
 from cogmap.worlds import Maze, MazeEnv, Position, labyrinth
 from known import known_agent
@@ -169,7 +170,7 @@ def explore(rooms: int, asked: argparse.Namespace) -> Row:
     """Steps and seconds to the end, for the agent and for nearest-frontier search; null where one did not get there."""
     steps: dict[str, list[int | None]] = {"agent": [], "frontier": []}
     walks: list[Timed] = []
-    for seed in range(asked.mazes if rooms <= 1000 else 1):
+    for seed in range(asked.seed, asked.seed + (asked.mazes if rooms <= 1000 else 1)):
         maze, start = maze_of(rooms, asked, seed)
         agent = Agent(MazeEnv.motions, settings=asked.settings, seed=seed)
         for name, walker in (("agent", agent), ("frontier", FrontierAgent(MazeEnv.motions, seed=seed))):
@@ -216,10 +217,12 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--seconds", type=float, default=300.0, help="for each part (each run of `explore`)")
     parser.add_argument("--gigabytes", type=float, default=4.0, help="of address space, at most")
     parser.add_argument("--look-ahead", type=int, default=6)
+    parser.add_argument("--choice", default=Settings().choice, choices=CHOICES, help="between policies")
+    parser.add_argument("--seed", type=int, default=0, help="of the first maze of `explore`")
     parser.add_argument("--profile", action="store_true", help="print the functions that take longest")
     parser.add_argument("--json", type=Path)
     asked = parser.parse_args(given)
-    asked.settings = Settings(look_ahead=asked.look_ahead)
+    asked.settings = Settings(look_ahead=asked.look_ahead, choice=asked.choice)
     return asked
 
 
@@ -254,7 +257,7 @@ def main(given: Sequence[str] | None = None) -> None:
         for rooms in asked.rooms:
             rows.append((profiled if asked.profile else measured)(part, rooms, asked))
             print(f"{rooms:8}  {part:10} {_text(rows[-1])}", flush=True)
-    options = {name: getattr(asked, name) for name in ("loops", "sights", "look_ahead", "seconds", "gigabytes")}
+    options = {name: getattr(asked, name) for name in ("loops", "sights", "look_ahead", "choice", "seed", "seconds", "gigabytes")}
     write_json(asked.json, {**options, "rows": rows})
 
 
