@@ -257,7 +257,8 @@ def main(given: Sequence[str] | None = None) -> None:
         for rooms in asked.rooms:
             rows.append((profiled if asked.profile else measured)(part, rooms, asked))
             print(f"{rooms:8}  {part:10} {_text(rows[-1])}", flush=True)
-    options = {name: getattr(asked, name) for name in ("loops", "sights", "look_ahead", "choice", "seed", "seconds", "gigabytes")}
+    told = ("loops", "sights", "look_ahead", "choice", "seed", "seconds", "gigabytes")
+    options = {name: getattr(asked, name) for name in told}
     write_json(asked.json, {**options, "rows": rows})
 
 
