@@ -23,8 +23,9 @@ from ..model.motions import Motions, MotionSpec
 from ..model.slices import Slice, take_slice, window_graph
 from ..planning import Plan
 from ..planning.choice import consider
-from ..planning.horizon import Preferences, cut_reach
+from ..planning.horizon import cut_reach
 from ..planning.outlook import Outlook
+from ..planning.preferences import Preferences
 from .mapper import Mapper
 from .past import past_state, restore_past, restore_rivals, rivals_state
 from .perception import perceive

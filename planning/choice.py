@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..model.errors import CogmapError
+from .energy import ExpectedFreeEnergy
 from .policies import DEFAULT_BEAM, GENERATORS, Policies, map_guided
 from .reach import Reach
-from .rollout import ExpectedFreeEnergy, evaluate
+from .rollout import evaluate
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -136,7 +137,7 @@ def contenders(reach: Reach, actions: Ints, G: Floats, *, how: str) -> Ints:
         good = _near(G, good, TIE)
         moves = (actions[good] != reach.motions.stay).sum(axis=1)
         good = good[moves == moves.min()]
-    elif how == "outward" and reach.frontier.max() >= 0.0:
+    elif how == "outward" and reach.frontier.max(initial=-1.0) >= 0.0:
         good = _near(G, good, SLACK)
         outward = _outward(reach, actions[good])
         good = good[outward == outward.max()]

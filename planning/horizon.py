@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -13,6 +12,7 @@ from ..model.cognitive_map import ELSEWHERE, CognitiveMap
 from ..model.dirichlet import EMPTY
 from ..model.distinct import distinct
 from .outlook import Doors, Outlook
+from .preferences import Preferences
 from .reach import Floats, Ints, Reach
 from .surroundings import surroundings
 from .transitions import Transitions
@@ -22,44 +22,6 @@ STARTS = 32
 
 PROMISING = 0.1
 """Nats that a first visit must be worth for a place to be a goal of long ways."""
-
-
-@dataclass(frozen=True, slots=True)
-class Preferences:
-    """What the agent hopes for.
-
-    Attributes:
-        sights: log preference of sights by number, relative to all others, in nats; `-1` stands for a sight
-            never met.
-        places: log preference of being in a place, by number, relative to all others, in nats.
-        collision_cost: -log P(c = 1): what a collision costs, in nats.
-    """
-
-    sights: Mapping[int, float] = field(default_factory=dict[int, float])
-    places: Mapping[int, float] = field(default_factory=dict[int, float])
-    collision_cost: float = 1.0
-
-    @property
-    def known(self) -> bool:
-        """Whether anything is hoped for that the map may have already."""
-        sights = (value for key, value in self.sights.items() if key >= 0)
-        return any(value > 0.0 for value in (*sights, *self.places.values()))
-
-    def log_C(self, outcomes: int) -> tuple[Ints, Floats, float]:
-        """Preferred outcomes, their log C, and that of each of the others, of `outcomes` in all."""
-        keys = np.array(sorted(self.sights), dtype=np.int64)
-        values = np.array([self.sights[int(key)] for key in keys])
-        if not len(keys):
-            return keys, values, 0.0
-        norm = float(np.logaddexp.reduce(np.append(values, np.log(max(outcomes - len(keys), 1e-300)))))
-        return keys, values - norm, -norm
-
-    def log_C_place(self, places: Ints) -> Floats:
-        """`[n]` log preference of being in each of `places`."""
-        log_C = np.zeros(len(places))
-        for place, value in self.places.items():
-            log_C[places == place] = value
-        return log_C
 
 
 def cut_reach(
@@ -171,9 +133,11 @@ def _hope(A: Floats, multiplicity: Floats, log_C: Floats) -> Floats | float:
 
 
 def _frontier(map_: CognitiveMap, places: Ints) -> Floats:
-    """`[R + 1]` squared distance from the origin of places never entered; -1 for others, and without a position."""
-    frontier = np.full(len(places) + 1, -1.0)
+    """`[R + 1]` squared distance from the origin of places never entered, -1 for others; empty where there are none."""
     new = np.flatnonzero(~map_.visited[places])
+    if not len(new):
+        return np.zeros(0)
+    frontier = np.full(len(places) + 1, -1.0)
     for i, place in zip(new.tolist(), places[new].tolist(), strict=True):
         position = map_.position(place)
         if position is not None:

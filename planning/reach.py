@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,11 +44,11 @@ class Reach:
         successor: `[R, K]` the place each action most probably leads to on the map; `-1` where the
             map says blocked or knows nothing beyond.
         promise: `[R]` what a first visit is worth, in nats (for generators that look for goals).
-        frontier: `[R]` how far out a place lies that was never entered, for breaking ties: squared distance from the
-            origin of positions; -1 for every other place.
         discount: weight of each step of a policy relative to the one before, above 0, at most 1.
         information_weight: weight of every information gain beside utility and collision, 0 or more.
         dropped: belief in places that were left out, before `belief` was made to sum to one again.
+        frontier: `[R]` how far out a place lies that was never entered, to choose between near-ties: squared distance
+            from the origin of positions; -1 for every other place. Empty where there is none.
     """
 
     motions: Motions
@@ -67,10 +67,10 @@ class Reach:
     transition_information: Floats
     successor: Ints
     promise: Floats
-    frontier: Floats
     discount: float = 1.0
     information_weight: float = 1.0
     dropped: float = 0.0
+    frontier: Floats = field(default_factory=lambda: np.zeros(0))
 
     @property
     def utility(self) -> Floats:
@@ -128,14 +128,14 @@ class Reach:
             "collision": (R, K),
             "successor": (R, K),
             "promise": (R,),
-            "frontier": (R,),
+            "frontier": (R,) if self.frontier.size else self.frontier.shape,
             "sight_information": (R, self.sight_information.shape[-1]),
             "position_information": (R, self.position_information.shape[-1]),
             "transition_information": (R, self.transition_information.shape[-1]),
         }
         for name, shape in shapes.items():
             found = getattr(self, name).shape
-            if found != shape or 0 in shape:
+            if found != shape or (0 in shape and name != "frontier"):
                 raise CogmapError(
                     f"reach: {name} has shape {found}; {R} places, {K} actions, {O} outcomes ask for {shape}"
                 )

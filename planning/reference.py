@@ -7,9 +7,9 @@ from math import floor, log
 
 import numpy as np
 
+from .energy import ExpectedFreeEnergy
 from .policies.base import Policies
 from .reach import Reach
-from .rollout import ExpectedFreeEnergy
 
 TERMS = 6
 

@@ -9,7 +9,8 @@ import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.inference.message import FilterOptions
 from cogmap.planning import ExpectedFreeEnergy, Policies, evaluate_plain
-from cogmap.planning.horizon import Preferences, cut_reach
+from cogmap.planning.horizon import cut_reach
+from cogmap.planning.preferences import Preferences
 from cogmap.worlds import MazeEnv, labyrinth, load_world
 from walks import walk
 

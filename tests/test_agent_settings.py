@@ -21,6 +21,7 @@ NAN, INF = float("nan"), float("inf")
 REFUSED: dict[str, list[Any]] = {
     "look_ahead": [0, -1, NAN],
     "beam": [0, -5],
+    "starts": [0, -1],
     "window": [0, -1],
     "precision": [-1.0, NAN, INF],
     "collision_cost": [-0.1, NAN, INF],

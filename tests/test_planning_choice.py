@@ -84,7 +84,8 @@ def test_exploring_goes_furthest_out_first_of_what_is_nearly_as_good() -> None:
     assert chosen([0.0, 1.1 * SLACK, 0.0]) == {0}
     assert chosen([0.9 * SLACK, 1.1 * SLACK, 0.0]) == {0}  # any frontier before none
     assert chosen([0.0, 0.5 * SLACK, 0.0], replace(reach, log_C=np.arange(7.0))) == {2}  # a wish: only the best count
-    assert chosen([0.0, 0.5 * SLACK, 0.0], replace(reach, frontier=np.full(6, -1.0))) == {0, 2}
+    for nothing_new in (np.full(6, -1.0), np.zeros(0)):
+        assert chosen([0.0, 0.5 * SLACK, 0.0], replace(reach, frontier=nothing_new)) == {0, 2}
 
 
 def test_sampled_draws_from_the_posterior() -> None:

@@ -9,7 +9,8 @@ import pytest
 from cogmap.model.cognitive_map import CognitiveMap
 from cogmap.model.errors import CogmapError
 from cogmap.planning import Reach, Transitions, horizon, map_guided, plan
-from cogmap.planning.horizon import Preferences, cut_reach
+from cogmap.planning.horizon import cut_reach
+from cogmap.planning.preferences import Preferences
 from cogmap.planning.transitions import likeliest
 from reaches import LINE, random_reach
 

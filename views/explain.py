@@ -273,7 +273,7 @@ def _tied(plan: Plan, policy: int, equals: set[int], choice: str) -> str | None:
     if policy in equals:
         return "lot"
     if choice == "outward" and plan.reach.indifferent and G[policy] <= G.min() + SLACK:
-        return "outward" if plan.reach.frontier.max() >= 0.0 else None
+        return "outward" if plan.reach.frontier.max(initial=-1.0) >= 0.0 else None
     return "moves" if G[policy] - G.min() <= TIE else None
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..planning import Plan
 from ..planning.choice import TIE
-from ..planning.rollout import ExpectedFreeEnergy
+from ..planning.energy import ExpectedFreeEnergy
 
 MOST = 12
 """Policies that are kept, the best ones."""

@@ -47,7 +47,6 @@ def reach_of(problem: Arrays) -> Reach:
         transition_information=nothing,
         successor=np.full((places, len(MOVES)), -1),
         promise=np.zeros(places),
-        frontier=np.full(places, -1.0),
     )
 
 
