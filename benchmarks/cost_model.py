@@ -4,9 +4,10 @@
     python benchmarks/cost_model.py --json cost_model.json
 
 `parts`: milliseconds a step of each part of the agent, 4x4, look-ahead 6. `model`: what each of `CAUSES` costs, by
-least squares over walks with look-aheads 2 to 14, four generators, known and lost; the error is that of other walks,
-the correlation that of logarithms. `arithmetic`: how long the multiplications of one rollout would take at the speed of
-a large matrix product, and how many calls of functions a step makes.
+least squares without negative costs, over walks with look-aheads 2 to 14, four generators, known and lost; each walk is
+made some times, and the least counts. The error is that of other walks, the correlation that of logarithms.
+`arithmetic`: how long the multiplications of one rollout would take at the speed of a large matrix product, and how
+many calls of functions a step makes.
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ from cogmap.worlds import MazeEnv, labyrinth, load_world
 from known import known_agent
 from machine import write_json
 from numpy.typing import NDArray
+from scipy.optimize import nnls
 
 Row = dict[str, Any]
 Floats = NDArray[np.float64]
@@ -128,25 +130,24 @@ def walks(seed: int) -> Iterator[Walk]:
     yield lost(seed)
 
 
-CAUSES = ("step", "level", "1000 places", "1000 prefixes", "1000 expected visits", "move considered", "1000 candidates")
-PLANNING, INFERENCE = (0, 1, 2, 3, 4), (0, 5, 6)
+CAUSES = ("step", "level", "1000 places", "1000 expected visits", "move considered", "1000 candidates")
+PLANNING, INFERENCE = (0, 1, 2, 3), (0, 4, 5)
 """What planning depends on, and what inference does (indices of `CAUSES`)."""
 
 
 def causes(agent: Agent) -> list[float]:
     """How much there was of each of `CAUSES` at the last step."""
     reach, map_, belief = agent.plan.reach, agent.map, agent.belief
-    prefixes, visits = visits_of(reach, prefixes_of(agent.plan.policies))
+    visits = visits_of(reach, prefixes_of(agent.plan.policies))
     visited = len(map_.visited_places)
     showing = len(map_.visited_with(map_.sights.index(agent.trace[-1].sight))[0])
     candidates = (showing if 2 * showing + FEW < visited else visited) if belief.examined else 0
     levels, places = agent.plan.policies.shape[1], len(reach.places)
-    thousands = [1e-3 * places, 1e-3 * prefixes, 1e-3 * visits]
-    return [1.0, levels, *thousands, float(belief.examined), 1e-3 * candidates]
+    return [1.0, levels, 1e-3 * places, 1e-3 * visits, float(belief.examined), 1e-3 * candidates]
 
 
-def visits_of(reach: Reach, tree: Prefixes) -> tuple[int, int]:
-    """Number of prefixes, and of pairs of prefix and place that it may have visited."""
+def visits_of(reach: Reach, tree: Prefixes) -> int:
+    """Pairs of a prefix and a place that it may have visited."""
     predict = predictor(reach.B)
     belief = np.zeros((len(tree), len(reach.places)))
     visited = np.zeros(belief.shape, dtype=np.bool_)
@@ -155,11 +156,21 @@ def visits_of(reach: Reach, tree: Prefixes) -> tuple[int, int]:
         parent = tree.parent[begin:end]
         belief[begin:end] = predict(belief[above:begin], parent - above, tree.action[begin:end])
         visited[begin:end] = visited[parent] | (belief[begin:end] > 0.0)
-    return len(tree), int(visited.sum())
+    return int(visited.sum())
 
 
-def observed(seed: int) -> tuple[Floats, Floats]:
-    """`[n, C]` causes of each step, and `[n, 2]` the milliseconds of planning and of inference."""
+def observed(seed: int, times: int) -> tuple[Floats, Floats]:
+    """`[n, C]` causes of each step, and `[n, 2]` milliseconds of planning and of inference, the least of some times."""
+    found: list[list[float]] = []
+    least: Floats | None = None
+    for _ in range(times):
+        found, took = _observed(seed)
+        least = took if least is None else np.minimum(least, took)
+    assert least is not None
+    return np.array(found), least
+
+
+def _observed(seed: int) -> tuple[list[list[float]], Floats]:
     found: list[list[float]] = []
     took: list[list[float]] = []
     for walk in walks(seed):
@@ -171,15 +182,13 @@ def observed(seed: int) -> tuple[Floats, Floats]:
                 planning = sum(seconds for part, seconds in spent.items() if part.startswith("plan"))
                 found.append(causes(agent))
                 took.append([1e3 * planning, 1e3 * spent["infer"]])
-    return np.array(found), np.array(took)
+    return found, np.array(took)
 
 
 def fitted(name: str, which: Sequence[int], at: int, known: tuple[Floats, Floats], new: tuple[Floats, Floats]) -> Row:
     """Coefficients from the first walks, and how well they tell what the others took."""
     X, y = known[0][:, which], known[1][:, at]
-    slowest = np.percentile(y, 99)  # a pause of the machine is none of the model's
-    X, y = X[y <= slowest], y[y <= slowest]
-    coefficients = np.linalg.lstsq(X / y[:, None], np.ones(len(y)), rcond=None)[0]  # errors count in proportion
+    coefficients, _ = nnls(X / y[:, None], np.ones(len(y)))  # errors count in proportion
     told, took = new[0][:, which] @ coefficients, new[1][:, at]
     error = np.abs(told - took) / took
     return {
@@ -238,13 +247,14 @@ def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--times", type=int, default=3, help="that each walk of the model is made")
     parser.add_argument("--json", type=Path)
     asked = parser.parse_args(given)
     result: Row = {"parts": parts(asked.runs), "arithmetic": arithmetic(asked.runs)}
     for row in result["parts"]:
         print(f"{row['part']:30} {row['ms']:6.3f} ms  {row['share']:4.0%}")
     print(*(f"{name} {value:.4g}" for name, value in result["arithmetic"].items()), sep="\n")
-    known, new = observed(0), observed(1)
+    known, new = (observed(seed, asked.times) for seed in (0, 1))
     result["model"] = [
         fitted("planning", PLANNING, 0, known, new),
         fitted("inference", INFERENCE, 1, known, new),
