@@ -292,6 +292,7 @@ class Agent:
                 self.map,
                 self._window[-1] if self._window else None,
                 (message.places, message.positions, message.mass),
+                self.belief.factors,
                 step=self._steps,
                 action=evidence.action,
                 was_open=evidence.was_open,

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 from cogmap.inference import infer
+from cogmap.inference.filter import factors
 from cogmap.model import CognitiveMap, FactorGraph, Learner, Motions, Rates, Slice, take_slice, window_graph
 from cogmap.worlds import GRID
 from machine import write_json
@@ -63,6 +64,7 @@ def lost_window(map_: CognitiveMap, steps: int, rng: np.random.Generator) -> lis
                 map_,
                 window[-1] if window else None,
                 anywhere,
+                factors(map_, places, 0, open_),
                 step=step,
                 action=action,
                 was_open=was_open,

@@ -33,7 +33,7 @@ class _Candidates:
     """Weighted pairs `[m]` before the evidence of this step.
 
     `source` indexes the message they come from; `told` is what the evidence has to be multiplied by (see `found_shut`);
-    `like` is P(o, c | s).
+    `factors` are P(o | s) and P(c | s).
     """
 
     places: Ints
@@ -41,7 +41,7 @@ class _Candidates:
     weight: Floats
     source: Ints
     told: Floats
-    like: Floats
+    factors: Floats
 
     def joined(self, others: _Candidates) -> _Candidates:
         """These, then the others."""
@@ -49,15 +49,15 @@ class _Candidates:
         return _Candidates(*(np.concatenate(pair) for pair in pairs))
 
     @property
-    def most(self) -> float:
-        """The largest of their joint masses with the evidence."""
-        return float((self.weight * self.told * self.like).max(initial=0.0))
+    def joint(self) -> Floats:
+        """`[m]` their joint masses with the evidence."""
+        return self.weight * self.told * np.multiply.reduce(self.factors, axis=1)
 
 
 def begin(map_: CognitiveMap, place: int, evidence: Evidence) -> Belief:
     """The belief of an agent that knows to be in `place`, after its first evidence."""
     start = np.array([place])
-    here, one, like = np.zeros(1, dtype=np.int64), np.ones(1), likelihood(map_, start, evidence.sight, evidence.open)
+    here, one, like = np.zeros(1, dtype=np.int64), np.ones(1), factors(map_, start, evidence.sight, evidence.open)
     prior = _Candidates(start, map_.position_index[start], one, here, one, like)
     return _update(map_, None, prior, None, evidence, FilterOptions(support=0.0))
 
@@ -65,16 +65,23 @@ def begin(map_: CognitiveMap, place: int, evidence: Evidence) -> Belief:
 def advance(map_: CognitiveMap, message: Message, evidence: Evidence, options: FilterOptions) -> Belief:
     """The belief after one more action and its evidence."""
     walked = _walk(map_, message, evidence, options)
-    share = walked.weight * walked.told * walked.like
-    if options.displacement <= options.support * float(share.sum()):  # even a perfect match elsewhere would be dropped
+    share = float(walked.joint.sum())
+    if options.displacement <= options.support * share:  # even a perfect match elsewhere would be dropped
         return _update(map_, message, walked, None, evidence, options)
     displaced, left_out = _displaced(map_, walked, evidence, options)
     return _update(map_, message, walked, displaced, evidence, options, left_out=left_out)
 
 
+def factors(map_: CognitiveMap, places: Ints, sight: int, open_: Sequence[bool]) -> Floats:
+    """`[n, 2]` P(o | s) and P(c | s): the sight, and the doors as sensed, given each place."""
+    found = np.empty((len(places), 2))
+    found[:, 0], found[:, 1] = map_.A_o.probability(sight, places), map_.doors_likelihood(places, open_)
+    return found
+
+
 def likelihood(map_: CognitiveMap, places: Ints, sight: int, open_: Sequence[bool]) -> Floats:
-    """`[n]` P(o, c | s): the sight, and the doors as sensed, given each place."""
-    return map_.A_o.probability(sight, places) * map_.doors_likelihood(places, open_)
+    """`[n]` P(o, c | s): the product of `factors`."""
+    return np.multiply.reduce(factors(map_, places, sight, open_), axis=1)
 
 
 def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: FilterOptions) -> _Candidates:
@@ -95,7 +102,7 @@ def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: Fil
     weight = np.concatenate([p * moves, p * (1.0 - moves)]) * map_.A_p.probability(positions, places)
     fits = np.flatnonzero((positions >= 0) & (weight > 0.0))
     places, told = places[fits], np.concatenate([told, told])[fits]
-    like = likelihood(map_, places, evidence.sight, evidence.open)
+    like = factors(map_, places, evidence.sight, evidence.open)
     return _Candidates(places, positions[fits], weight[fits], source[fits], told, like)
 
 
@@ -114,7 +121,7 @@ def _displaced(
     if 2 * len(listed) + FEW < len(visited):
         places = np.union1d(listed, entered)
         some = _put_into(map_, places, evidence, options)
-        best = max(part.most for part in (walked, some))
+        best = max(float(part.joint.max(initial=0.0)) for part in (walked, some))
         each = bound * options.displacement / len(visited)
         if each < min(options.support, FAINT) * best:
             return some, each * (len(visited) - len(places))
@@ -124,7 +131,7 @@ def _displaced(
 def _put_into(map_: CognitiveMap, places: Ints, evidence: Evidence, options: FilterOptions) -> _Candidates:
     """These of the visited places, with their positions, all alike."""
     keys, p, _ = map_.A_p.mean(places)
-    like = np.repeat(likelihood(map_, places, evidence.sight, evidence.open), keys.shape[1])
+    like = factors(map_, places, evidence.sight, evidence.open).repeat(keys.shape[1], axis=0)
     places = np.repeat(places, keys.shape[1])
     weight = (p * (options.displacement / max(len(map_.visited_places), 1))).ravel()
     real = weight > 0.0
@@ -148,20 +155,21 @@ def _update(
     pair_places, pair_positions = np.divmod(pairs, len(map_.positions))
     predicted = np.bincount(pair, weights=all_.weight, minlength=len(pairs))
     told = all_.weight * all_.told
-    like = np.zeros(len(pairs))
-    like[pair] = all_.like
-    joint = np.bincount(pair, weights=told, minlength=len(pairs)) * like
+    like = np.empty((len(pairs), 2))
+    like[pair] = all_.factors
+    joint = np.bincount(pair, weights=told, minlength=len(pairs)) * np.multiply.reduce(like, axis=1)
     total = joint.sum()
     kept = _support(pair_places, joint / total, options.support)
     z = float(joint[kept].sum())
     q = joint[kept] / z
     count = len(walked.weight)
-    walked_mass = np.where(kept[pair[:count]], told[:count] * like[pair[:count]], 0.0) / z
+    walked_mass = np.where(kept[pair[:count]], walked.joint, 0.0) / z
     unexamined = 0.0 if displaced is not None or message is None else options.displacement / (options.displacement + z)
     return Belief(
         message=Message(pair_places[kept], pair_positions[kept], q),
         evidence=float(np.log(z)),
         log_likelihood=np.log(joint[kept] / predicted[kept]),
+        factors=like[kept],
         moved=max(0.0, 1.0 - float(walked_mass.sum())) if displaced is not None else 0.0,
         dropped=1.0 - z / (float(total) + left_out) + unexamined,
         examined=displaced is not None,

@@ -95,6 +95,7 @@ class Belief:
         examined: whether being displaced was examined; if not, all of it would have been dropped.
         walks: pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`.
         doubt: probability that the belief went astray at an earlier step; see `rivals`.
+        factors: `[n, 2]` P(o_t | s_t) and P(c_t | s_t) for each pair of the message; empty in a belief that was loaded.
         faint: places that were dropped from the support, and their mass beside the kept ones'.
     """
 
@@ -106,6 +107,7 @@ class Belief:
     examined: bool
     walks: tuple[Ints, Ints, Floats]
     doubt: float = 0.0
+    factors: Floats = field(default_factory=lambda: np.zeros((0, 2)))
     faint: tuple[Ints, Floats] = field(default_factory=_nothing)
 
     @property
@@ -148,6 +150,7 @@ class Belief:
             self,
             message=message,
             log_likelihood=self.log_likelihood[at],
+            factors=self.factors[at],
             evidence=self.evidence + float(np.log(kept)),
             moved=max(0.0, 1.0 - float(walks[2].sum())) if self.examined else 0.0,
             dropped=1.0 - kept * (1.0 - self.dropped),

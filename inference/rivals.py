@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.cognitive_map import CognitiveMap
-from .filter import FAINT, likelihood
+from .filter import FAINT, factors, likelihood
 from .message import Belief, Evidence, Message
 
 Floats = NDArray[np.float64]
@@ -141,7 +141,8 @@ def _since(map_: CognitiveMap, places: Ints, visits: Ints) -> NDArray[np.bool_]:
 def certain_of(map_: CognitiveMap, place: int, evidence: Evidence, *, odds: float, instead_of: Belief) -> Belief:
     """The belief of an agent that has found out that it is in `place`, at these odds against what it believed."""
     here, none = np.array([place]), np.zeros(0, dtype=np.int64)
-    log_likelihood = np.log(likelihood(map_, here, evidence.sight, evidence.open))
+    like = factors(map_, here, evidence.sight, evidence.open)
+    log_likelihood = np.log(like.prod(axis=1))
     before = np.log(odds) + instead_of.evidence - log_likelihood[0]  # log odds before this evidence
     return Belief(
         message=Message(here, map_.position_index[here], np.ones(1)),
@@ -151,4 +152,5 @@ def certain_of(map_: CognitiveMap, place: int, evidence: Evidence, *, odds: floa
         dropped=0.0,
         examined=True,
         walks=(none, none, np.zeros(0)),
+        factors=like,
     )

@@ -60,6 +60,7 @@ def take_slice(
     map_: CognitiveMap,
     before: Slice | None,
     joint: tuple[Ints, Ints, Floats],
+    factors: Floats,
     *,
     step: int,
     action: int | None,
@@ -69,10 +70,15 @@ def take_slice(
     slip: float,
     displacement: tuple[float, float],
 ) -> Slice:
-    """Snapshot of the tables over the support of the filtered `joint` (places, positions, masses of its pairs)."""
+    """Snapshot of the tables over the support of the filtered `joint`, places, positions and masses of its `k` pairs.
+
+    P(o_t | s_t) and P(c_t | s_t) of each pair, `factors [k, 2]`, are those that it was filtered with.
+    """
     (places, place_at), (positions, position_at) = distinct(joint[0]), distinct(joint[1])
     table = np.zeros((len(places), len(positions)))
     table[place_at, position_at] = joint[2]
+    told = np.empty((len(places), 2))
+    told[place_at] = factors
     transition, motion = np.zeros((len(places), 0)), np.zeros((len(positions), 0))
     if before is not None and action is not None:
         keys, p, _ = map_.B_s.mean(map_.rows(before.places, action))
@@ -90,8 +96,8 @@ def take_slice(
         transition=transition,
         motion=motion,
         place=_looked_up(positions, *map_.A_p.mean(places)[:2]),
-        sight_likelihood=map_.A_o.probability(sight, places),
-        doors_likelihood=map_.doors_likelihood(places, open_),
+        sight_likelihood=told[:, 0],
+        doors_likelihood=told[:, 1],
         arrival=map_.visited[places] / max(len(map_.visited_places), 1),
         displacement=displacement,
     )
