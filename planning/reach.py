@@ -110,6 +110,8 @@ class Reach:
             )
         if not 0.0 <= self.dropped < 1.0:
             raise CogmapError(f"reach: dropped is {self.dropped}; give a probability below 1")
+        if np.isnan(self.frontier).any():
+            raise CogmapError("reach: frontier has a NaN; give squared distances, -1 where nothing is new")
         if not self.multiplicity.min() >= 1.0:
             raise CogmapError("reach: multiplicity is below one; each row of A stands for one sight or more")
         if self.successor.min() < -1 or self.successor.max() >= len(self.belief):

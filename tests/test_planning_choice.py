@@ -169,6 +169,8 @@ def test_unknown_names_list_the_choices() -> None:
         ("transition_information", np.zeros((5, 2))),
         ("discount", 0.0),
         ("dropped", 1.0),
+        ("frontier", np.zeros(3)),
+        ("frontier", np.full(5, np.nan)),
     ],
 )
 def test_plan_refuses_tables_that_do_not_fit(field: str, value: object) -> None:
