@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..model.cognitive_map import ELSEWHERE, CognitiveMap
 from ..model.dirichlet import EMPTY
 from ..model.distinct import distinct
+from ..model.errors import CogmapError
 from .outlook import Doors, Outlook
 from .preferences import Preferences
 from .reach import Floats, Ints, Reach
@@ -42,8 +43,13 @@ def cut_reach(
     Everything within `look_ahead` steps is in it; where nothing promising is among that, the way goes on to the
     nearest places that are. Of a belief over more than `starts` places the likeliest remain (see `Reach.dropped`).
     What an `outlook` of the map has kept from the last step is not worked out again.
+
+    Raises:
+        CogmapError: the outlook tells of fewer visits than `look_ahead`.
     """
     outlook = outlook or Outlook(map_, look_ahead)
+    if outlook.steps < look_ahead:
+        raise CogmapError(f"plan: its outlook tells of {outlook.steps} visits; make one for {look_ahead}")
     outlook.refresh()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
     hopeful = preferences.known or len(map_.visited_places) < len(map_.places)

@@ -10,6 +10,7 @@ from cogmap.model.cognitive_map import CognitiveMap
 from cogmap.model.errors import CogmapError
 from cogmap.planning import Reach, Transitions, horizon, map_guided, plan
 from cogmap.planning.horizon import cut_reach
+from cogmap.planning.outlook import Outlook
 from cogmap.planning.preferences import Preferences
 from cogmap.planning.transitions import likeliest
 from reaches import LINE, random_reach
@@ -65,6 +66,17 @@ def test_a_sight_never_met_is_no_reason_to_search_a_map_that_is_known(monkeypatc
     monkeypatch.setattr(horizon, "_promising", lambda *given: asked.append(1))
     assert rooms_of(reach_of(corridor(50), 20, Preferences(sights={-1: 5.0}))) == list(range(17, 24))
     assert not asked
+
+
+def test_an_outlook_that_ends_before_the_look_ahead_is_refused() -> None:
+    map_ = corridor(9)
+    options = {"open_": OPEN, "look_ahead": 3, "preferences": Preferences()}
+    with pytest.raises(CogmapError, match="outlook tells of 2 visits; make one for 3"):
+        cut_reach(map_, np.array([4]), np.ones(1), outlook=Outlook(map_, 2), **options)
+    longer = cut_reach(map_, np.array([4]), np.ones(1), outlook=Outlook(map_, 5), **options)
+    longer.check()
+    plain = cut_reach(map_, np.array([4]), np.ones(1), **options)
+    np.testing.assert_array_equal(longer.sight_information, plain.sight_information)
 
 
 def test_what_is_near_is_taken_before_what_is_far() -> None:
