@@ -12,7 +12,6 @@ import argparse
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 from cogmap.agent import Settings
@@ -21,7 +20,7 @@ from cogmap.inference.message import Belief, FilterOptions
 from cogmap.model import TABLE_RATES, TEXT_RATES, Priors
 from cogmap.planning import CHOICES
 from cogmap.worlds import MAZES, Maze, spiral
-from machine import write_json
+from machine import json_path, write_json
 
 
 @contextmanager
@@ -93,7 +92,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--mazes", nargs="+", type=maze_named, default=[MAZES["4x4"], MAZES["4x4_alias"]])
     parser.add_argument("--runs", type=int, default=10)
     parser.add_argument("--max-steps", type=int, default=300)
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     if unknown := set(asked.ablations) - set(ABLATIONS):
         parser.error(f"no ablation {', '.join(sorted(unknown))}; choose from {', '.join(ABLATIONS)}")

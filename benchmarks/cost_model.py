@@ -18,7 +18,6 @@ import pstats
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -31,7 +30,7 @@ from cogmap.planning.prediction import predictor
 from cogmap.planning.prefixes import Prefixes, prefixes_of
 from cogmap.worlds import MazeEnv, labyrinth, load_world
 from known import known_agent
-from machine import write_json
+from machine import json_path, write_json
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
@@ -248,7 +247,7 @@ def main(given: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--times", type=int, default=3, help="that each walk of the model is made")
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     result: Row = {"parts": parts(asked.runs), "arithmetic": arithmetic(asked.runs)}
     for row in result["parts"]:

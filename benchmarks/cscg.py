@@ -12,7 +12,6 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Mapping
-from pathlib import Path
 from statistics import mean, median
 from typing import Any
 
@@ -20,7 +19,7 @@ import numpy as np
 from cogmap.baselines import CscgAgent, CscgSettings
 from cogmap.experiments import explore_many, workers
 from cogmap.worlds import GRID, MAZES, MazeEnv
-from machine import write_json
+from machine import json_path, write_json
 
 Row = dict[str, Any]
 MOST = 600
@@ -112,7 +111,7 @@ def main() -> None:
     parser.add_argument("--mazes", nargs="+", choices=list(MAZES), default=[name for name in MAZES if name != "tolman"])
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args()
     if asked.what == "readings":
         rows = readings(asked.mazes, asked.runs, asked.jobs)

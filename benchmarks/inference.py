@@ -13,7 +13,6 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Sequence
-from pathlib import Path
 from statistics import median
 from typing import Any
 
@@ -22,7 +21,7 @@ from cogmap.inference import infer
 from cogmap.inference.filter import factors
 from cogmap.model import CognitiveMap, FactorGraph, Learner, Motions, Rates, Slice, take_slice, window_graph
 from cogmap.worlds import GRID
-from machine import write_json
+from machine import json_path, write_json
 
 ENGINES = ("numpy", "gtsam")
 ROWS = 4
@@ -116,7 +115,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--supports", type=int, nargs="+", default=[2, 5, 10, 20, 40, 60])
     parser.add_argument("--engines", nargs="+", default=list(ENGINES), choices=ENGINES)
     parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--json", type=json_path)
     return parser.parse_args(given)
 
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 
@@ -38,7 +37,7 @@ from cogmap.worlds import (
     shortest_path,
     spiral,
 )
-from machine import write_json
+from machine import json_path, write_json
 
 Row = dict[str, Any]
 
@@ -238,7 +237,7 @@ def main(given: Sequence[str] | None = None) -> None:
     parser.add_argument("measure", choices=MEASURES)
     parser.add_argument("--mazes", nargs="+", help="all of the measure unless given")
     parser.add_argument("--runs", type=int, default=20)
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     measure, mazes = MEASURES[asked.measure]
     if unknown := sorted(set(asked.mazes or ()) - set(mazes)):

@@ -33,7 +33,7 @@ from cogmap.planning import CHOICES
 from cogmap.planning.outlook import Outlook
 from cogmap.worlds import Maze, MazeEnv, Position, labyrinth
 from known import known_agent
-from machine import write_json
+from machine import json_path, write_json
 
 Row = dict[str, Any]
 WARM = 10
@@ -220,7 +220,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--choice", default=Settings().choice, choices=CHOICES, help="between policies")
     parser.add_argument("--seed", type=int, default=0, help="of the first maze of `explore`")
     parser.add_argument("--profile", action="store_true", help="print the functions that take longest")
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     asked.settings = Settings(look_ahead=asked.look_ahead, choice=asked.choice)
     return asked

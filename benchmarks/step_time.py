@@ -25,7 +25,7 @@ from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError
 from cogmap.planning import GENERATORS
 from cogmap.worlds import load_world
-from machine import write_json
+from machine import json_path, write_json
 
 IMPORT = "import time; t = time.perf_counter(); import cogmap.agent; print(time.perf_counter() - t)"
 
@@ -94,7 +94,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--look-ahead", type=int, nargs="+", default=[6])
     parser.add_argument("--policies", nargs="+", default=["map_guided"], choices=[*GENERATORS, "all"])
     parser.add_argument("--seconds", type=float, default=60.0, help="of a run, at most")
-    parser.add_argument("--json", type=Path)
+    parser.add_argument("--json", type=json_path)
     parser.add_argument("--peak-only", action="store_true", help="walk once and print megabytes")
     return parser.parse_args(given)
 
