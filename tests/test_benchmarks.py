@@ -199,7 +199,9 @@ def test_bad_arguments_are_refused(name: str) -> None:
     assert done.returncode == 2
 
 
-@pytest.mark.parametrize("name", sorted(path.name for path in BENCHMARKS.glob("*.py") if "json_path)" in path.read_text()))
+@pytest.mark.parametrize(
+    "name", sorted(path.name for path in BENCHMARKS.glob("*.py") if "json_path)" in path.read_text())
+)
 def test_a_result_that_cannot_be_written_is_refused_before_anything_is_measured(name: str, tmp_path: Path) -> None:
     command = [sys.executable, str(BENCHMARKS / name), "--json", str(tmp_path / "nowhere" / "result.json")]
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
