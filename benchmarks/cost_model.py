@@ -30,7 +30,7 @@ from cogmap.planning.prediction import predictor
 from cogmap.planning.prefixes import Prefixes, prefixes_of
 from cogmap.worlds import MazeEnv, labyrinth, load_world
 from known import known_agent
-from machine import json_path, write_json
+from machine import json_path, positive, write_json
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
@@ -245,8 +245,8 @@ def arithmetic(runs: int) -> Row:
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--times", type=int, default=3, help="that each walk of the model is made")
+    parser.add_argument("--runs", type=positive, default=5)
+    parser.add_argument("--times", type=positive, default=3, help="that each walk of the model is made")
     parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     result: Row = {"parts": parts(asked.runs), "arithmetic": arithmetic(asked.runs)}

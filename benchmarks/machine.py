@@ -26,6 +26,14 @@ def machine() -> dict[str, Any]:
     }
 
 
+def positive(text: str) -> int:
+    """A whole number of one or more, for argparse."""
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{number} is too few; give 1 or more")
+    return number
+
+
 def json_path(text: str) -> Path:
     """The file that `--json` names; refused before anything is measured where it cannot be written."""
     path = Path(text)

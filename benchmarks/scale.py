@@ -222,6 +222,8 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--profile", action="store_true", help="print the functions that take longest")
     parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
+    if asked.seed < 0:
+        parser.error(f"--seed is {asked.seed}; give 0 or more")
     asked.settings = Settings(look_ahead=asked.look_ahead, choice=asked.choice)
     return asked
 

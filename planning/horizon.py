@@ -45,11 +45,12 @@ def cut_reach(
     What an `outlook` of the map has kept from the last step is not worked out again.
 
     Raises:
-        CogmapError: the outlook tells of fewer visits than `look_ahead`.
+        CogmapError: the outlook is of another map or tells of fewer visits than `look_ahead`, or `starts` is below one.
     """
     outlook = outlook or Outlook(map_, look_ahead)
-    if outlook.steps < look_ahead:
-        raise CogmapError(f"plan: its outlook tells of {outlook.steps} visits; make one for {look_ahead}")
+    outlook.check(map_, look_ahead)
+    if starts < 1:
+        raise CogmapError(f"plan: starts is {starts}; give 1 or more places to set out from")
     outlook.refresh()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
     hopeful = preferences.known or len(map_.visited_places) < len(map_.places)

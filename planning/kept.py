@@ -26,11 +26,6 @@ class Kept:
         self._known = np.zeros(0, dtype=np.bool_)
         self._columns: list[NDArray[Any]] = []
 
-    @property
-    def nbytes(self) -> int:
-        """Bytes of storage."""
-        return self._known.nbytes + sum(column.nbytes for column in self._columns)
-
     def forget(self, rows: Sequence[int] | None = None) -> None:
         """These rows, or all of them, are worked out again when they are next asked for."""
         if rows is None:

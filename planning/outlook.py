@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.cognitive_map import ELSEWHERE, CognitiveMap
+from ..model.errors import CogmapError
 from .information import dirichlet_information
 from .kept import Kept
 from .transitions import Floats, Ints, likeliest
@@ -54,10 +55,12 @@ class Outlook:
         self._read = [-1, -1, -1]  # of the journals of A_o, A_p, B_s
         self._outcomes = self._visits = 0
 
-    @property
-    def nbytes(self) -> int:
-        """Bytes of storage."""
-        return self._doors.nbytes + self._sights.nbytes
+    def check(self, map_: CognitiveMap, look_ahead: int) -> None:
+        """Raise `CogmapError` unless it is of this map, and tells of enough visits for this look-ahead."""
+        if self._map is not map_:
+            raise CogmapError("outlook: it is of another map; make one with Outlook(map, look_ahead)")
+        if self.steps < look_ahead:
+            raise CogmapError(f"outlook: it tells of {self.steps} visits; make one for {look_ahead}")
 
     def refresh(self) -> None:
         """Forget what has changed since the last call."""

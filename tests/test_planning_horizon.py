@@ -68,11 +68,17 @@ def test_a_sight_never_met_is_no_reason_to_search_a_map_that_is_known(monkeypatc
     assert not asked
 
 
-def test_an_outlook_that_ends_before_the_look_ahead_is_refused() -> None:
+def test_an_outlook_that_does_not_fit_and_no_start_at_all_are_refused() -> None:
     map_ = corridor(9)
     options = {"open_": OPEN, "look_ahead": 3, "preferences": Preferences()}
-    with pytest.raises(CogmapError, match="outlook tells of 2 visits; make one for 3"):
-        cut_reach(map_, np.array([4]), np.ones(1), outlook=Outlook(map_, 2), **options)
+    for outlook, message in (
+        (Outlook(map_, 2), "tells of 2 visits; make one for 3"),
+        (Outlook(corridor(9), 3), "another"),
+    ):
+        with pytest.raises(CogmapError, match=message):
+            cut_reach(map_, np.array([4]), np.ones(1), outlook=outlook, **options)
+    with pytest.raises(CogmapError, match="starts is 0; give 1 or more"):
+        cut_reach(map_, np.array([4]), np.ones(1), starts=0, **options)
     longer = cut_reach(map_, np.array([4]), np.ones(1), outlook=Outlook(map_, 5), **options)
     longer.check()
     plain = cut_reach(map_, np.array([4]), np.ones(1), **options)

@@ -30,7 +30,7 @@ from problem import grid_problem
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent))
-from machine import json_path, write_json  # noqa: E402
+from machine import json_path, positive, write_json  # noqa: E402
 
 ONE_THREAD = {
     **dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
@@ -130,7 +130,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--peers", nargs="*", default=list(PEERS), choices=[*PEERS, []])
     parser.add_argument("--seconds", type=float, default=2.0, help="for each call, library, size and round")
-    parser.add_argument("--rounds", type=int, default=5, help="in which the libraries take turns")
+    parser.add_argument("--rounds", type=positive, default=5, help="in which the libraries take turns")
     parser.add_argument("--folder", type=Path, default=Path(tempfile.gettempdir()) / "cogmap-peers")
     parser.add_argument("--json", type=json_path)
     return parser.parse_args(given)
@@ -149,7 +149,7 @@ def main(given: Sequence[str] | None = None) -> None:
         turns |= {name: (python, PEERS[name]) for name, python in pythons.items()}
         rounds = [
             {name: measured(*turn, problems, asked.seconds) for name, turn in turns.items()}
-            for _ in range(max(1, asked.rounds))
+            for _ in range(asked.rounds)
         ]
         sides = {name: together([reports[name] for reports in rounds]) for name in turns}
     rows = table(asked.places, sides)
