@@ -5,7 +5,7 @@ from __future__ import annotations
 from .belief_map_plot import plot_belief_map
 from .belief_plot import plot_belief, plot_belief_bars
 from .certainty_plot import plot_certainty, plot_surprise
-from .colours import sight_colour
+from .colours import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, sight_colour
 from .energy_plot import plot_expected_free_energy, plot_free_energy
 from .explain import Explanation, explain
 from .figures import explore_figure
@@ -16,8 +16,16 @@ from .maze_plot import plot_maze
 from .policy_plot import plot_policies, policy_paths
 from .recording import Recorder, Recording
 from .terms_plot import plot_terms
+from .theme import theme_of
 
 __all__ = [
+    "BLUE",
+    "GREEN",
+    "GREY",
+    "ORANGE",
+    "PURPLE",
+    "SKY",
+    "VERMILION",
     "Explanation",
     "GrowthFrames",
     "Recorder",
@@ -38,4 +46,5 @@ __all__ = [
     "plot_terms",
     "policy_paths",
     "sight_colour",
+    "theme_of",
 ]

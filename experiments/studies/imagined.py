@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from ...model import CognitiveMap
 from ...planning import Plan
@@ -25,10 +24,6 @@ class ImaginedPath:
 
     rooms: tuple[Position, ...]
     probability: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """The path as plain JSON values."""
-        return {"rooms": [list(room) for room in self.rooms], "probability": self.probability}
 
 
 def imagined_paths(plan: Plan, map_: CognitiveMap, start: Position) -> tuple[ImaginedPath, ...]:

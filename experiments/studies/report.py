@@ -1,44 +1,21 @@
-"""The report of a study as a document: what was asked, what came of it, what failed, and how to run it again."""
+"""The report of a study: as Markdown, and as one HTML file that needs nothing else."""
 
 from __future__ import annotations
 
-import csv
 import re
+from base64 import b64encode
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from io import StringIO
+from html import escape as html_escape
+from pathlib import Path
+from typing import Any
 
-Value = str | int | float | bool | None
-"""What stands in a table."""
+from .tables import Table, Value
 
 NONE = "–"
-
-
-@dataclass(frozen=True, slots=True)
-class Table:
-    """A table of a study, kept as CSV.
-
-    Attributes:
-        name: stem of its file.
-        columns: their heads.
-        rows: one value a column.
-        caption: what it shows, one sentence.
-        shown: whether the report shows it; those that are long, or for machines only, are named there.
-    """
-
-    name: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple[Value, ...], ...]
-    caption: str = ""
-    shown: bool = True
-
-    def csv(self) -> str:
-        """The table as CSV with a line of heads; an empty field stands for none."""
-        text = StringIO(newline="")
-        writer = csv.writer(text, lineterminator="\n")
-        writer.writerow(self.columns)
-        writer.writerows([["" if value is None else value for value in row] for row in self.rows])
-        return text.getvalue()
+LARGEST = 1_000_000
+"""Bytes of a drawing (SVG) above which a page holds the picture (PNG) instead."""
+STYLE = Path(__file__).with_name("report.css")
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,57 +24,57 @@ class Report:
 
     Attributes:
         title: of the report.
-        asked: what the study asks, and how it goes about it.
+        question: what the study asks, and how it goes about it.
+        links: files and what they are, for an index.
         lines: what the terminal showed.
         figures: file and what it shows.
         tables: of the study.
         failed: what did not get there, one line each.
         notes: where the figures differ from the published ones, and why.
-        links: files and what they are, for an index.
         command: that runs it again.
         facts: seed, versions, machine, settings.
     """
 
     title: str
-    asked: str
-    lines: tuple[str, ...] = ()
-    figures: tuple[tuple[str, str], ...] = ()
-    tables: tuple[Table, ...] = ()
-    failed: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
-    links: tuple[tuple[str, str], ...] = ()
+    question: str
+    links: Sequence[tuple[str, str]] = ()
+    lines: Sequence[str] = ()
+    figures: Sequence[tuple[str, str]] = ()
+    tables: Sequence[Table] = ()
+    failed: Sequence[str] = ()
+    notes: Sequence[str] = ()
     command: str = ""
-    facts: tuple[tuple[str, Value], ...] = ()
+    facts: Sequence[tuple[str, Value]] = ()
 
     def markdown(self) -> str:
         """The report as Markdown (CommonMark with tables); pictures are linked."""
-        found = [
-            _code(self.lines),
-            *(f"![{escape(text)}](<{path}>)" for path, text in self.figures),
-            *(_shown(table) for table in self.tables if table.shown),
+        pictures = [f"![{escape(text)}](<{path}>)" for path, text in self.figures]
+        shown_ = [
+            f"{escape(table.caption)}\n\n{table_markdown(table.columns, table.rows)}".strip()
+            for table in self.tables
+            if table.shown
         ]
-        repeat = [_code([self.command] if self.command else []), _facts(self.facts)]
-        parts = [
-            f"# {escape(self.title)}",
-            escape(self.asked),
-            *_section("Parts", _bullets([f"[{escape(text)}](<{path}>)" for path, text in self.links])),
-            *_section("What came of it", *found),
-            *_section("What failed", _bullets([escape(line) for line in self.failed or ("Nothing.",)])),
-            *_section("Notes", _bullets([escape(note) for note in self.notes])),
-            *_section("Run it again", *repeat),
-            *_section("Tables as CSV", _bullets([_named(table) for table in self.tables])),
-        ]
-        return "\n\n".join(part for part in parts if part) + "\n"
+        sections = {
+            "Parts": [_bullets(f"[{escape(text)}](<{path}>)" for path, text in self.links)],
+            "What came of it": [_code(self.lines), *pictures, *shown_],
+            "What failed": [_bullets(escape(line) for line in self.failed or ("Nothing.",))],
+            "Notes": [_bullets(escape(note) for note in self.notes)],
+            "Run it again": [_code([self.command] if self.command else []), _facts(self.facts)],
+            "Tables as CSV": [_bullets(_named(table) for table in self.tables)],
+        }
+        parts = [f"# {escape(self.title)}", escape(self.question)]
+        for title, body in sections.items():
+            parts += [f"## {title}", *filter(None, body)] if any(body) else []
+        return "\n\n".join(parts) + "\n"
 
 
-def table_markdown(columns: Sequence[str], rows: Iterable[Sequence[Value]]) -> str:
+def table_markdown(columns: Sequence[str], rows: Sequence[Sequence[Value]]) -> str:
     """A table; columns that hold numbers only are set to the right."""
-    body = [list(row) for row in rows]
-    numbers = [all(_is_number(row[i]) for row in body) and bool(body) for i in range(len(columns))]
+    numbers = [bool(rows) and all(_is_number(row[i]) for row in rows) for i in range(len(columns))]
     lines = [
         [escape(name) for name in columns],
         ["---:" if right else "---" for right in numbers],
-        *([escape(shown(value)) for value in row] for row in body),
+        *([escape(shown(value)) for value in row] for row in rows),
     ]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
@@ -119,20 +96,42 @@ def escape(text: str) -> str:
     return " ".join(text.replace("](", "]\\(").split())
 
 
+def html_page(markdown: str, folder: Path) -> str:
+    """The page without scripts, the pictures that the Markdown links inside.
+
+    Args:
+        markdown: CommonMark with tables; HTML in it is shown, not obeyed.
+        folder: that links are relative to. A picture that is not there is left a link.
+    """
+    from markdown_it import MarkdownIt
+
+    reader = MarkdownIt("commonmark", {"html": False}).enable("table")
+    tokens = reader.parse(markdown)
+    for token in _all(tokens):
+        if token.type == "image":
+            token.attrs["src"] = _inside(folder, str(token.attrs["src"]))
+        elif token.type == "link_open":  # a page leads to pages
+            token.attrs["href"] = re.sub(r"\.md$", ".html", str(token.attrs["href"]))
+    heading = next(token for token in tokens if token.type == "inline")
+    title = "".join(part.content for part in heading.children or ())
+    body = reader.renderer.render(tokens, reader.options, {})
+    body = body.replace("<table>", '<div class="wide"><table>').replace("</table>", "</table></div>")
+    return (
+        f'<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n<title>{html_escape(title)}</title>\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<style>{STYLE.read_text('utf-8')}</style>\n</head>\n<body>\n{body}</body>\n</html>\n"
+    )
+
+
 def _is_number(value: Value) -> bool:
     return value is None or (isinstance(value, int | float) and not isinstance(value, bool))
-
-
-def _section(title: str, *parts: str) -> list[str]:
-    body = [part for part in parts if part]
-    return [f"## {title}", *body] if body else []
 
 
 def _facts(facts: Sequence[tuple[str, Value]]) -> str:
     return table_markdown(("what", "value"), facts) if facts else ""
 
 
-def _bullets(lines: Sequence[str]) -> str:
+def _bullets(lines: Iterable[str]) -> str:
     return "\n".join(f"- {line}" for line in lines)
 
 
@@ -140,9 +139,19 @@ def _code(lines: Sequence[str]) -> str:
     return "\n".join(["```text", *(line.replace("```", "'''") for line in lines), "```"]) if lines else ""
 
 
-def _shown(table: Table) -> str:
-    return f"{escape(table.caption)}\n\n{table_markdown(table.columns, table.rows)}".strip()
-
-
 def _named(table: Table) -> str:
-    return f"`{table.name}.csv`: {escape(table.caption)}" if table.caption else f"`{table.name}.csv`"
+    return f"`{table.name}.csv`" + (f": {escape(table.caption)}" if table.caption else "")
+
+
+def _all(tokens: Sequence[Any]) -> list[Any]:
+    return [part for token in tokens for part in (token, *_all(token.children or ()))]
+
+
+def _inside(folder: Path, name: str) -> str:
+    """The picture as a data URI, drawn if the drawing beside it is not too large."""
+    picture = folder / name
+    drawing = picture.with_suffix(".svg")
+    if drawing.is_file() and drawing.stat().st_size <= LARGEST:
+        picture = drawing
+    kind = "svg+xml" if picture.suffix == ".svg" else "png"
+    return f"data:image/{kind};base64,{b64encode(picture.read_bytes()).decode()}" if picture.is_file() else name

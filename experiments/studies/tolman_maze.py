@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 from ...agent import Agent, Settings
-from ...model import CogmapError, Priors
+from ...model import Priors
+from ...views import BLUE, GREEN, ORANGE, theme_of
 from ...worlds import GRID, MAZES, Door, Label, MazeEnv, Position, shortest_path
-from ..walkers import Walker
+from .figures import plot_flow
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MAZE = MAZES["tolman"]
 START: Position = (6, 2)
@@ -22,7 +27,7 @@ B: Position = (2, 2)
 """Closed, it cuts the way that routes 1 and 2 share."""
 FORK: Position = (3, 2)
 """Where routes 1 and 2 meet, and where B is met."""
-BEFORE: dict[Position, Position] = {A: (5, 2), B: FORK}
+BEFORE: dict[Position | None, Position] = {A: (5, 2), B: FORK}
 """The room from which the closed one bars the way."""
 LEFT: Position = (3, 1)
 """Where route 2 comes to the fork."""
@@ -32,6 +37,8 @@ BRANCHES: dict[Position, int] = {(5, 2): 1, (6, 1): 2, (6, 3): 3}
 """The first room of each route."""
 GATES: dict[Position, int] = {(4, 2): 1, (3, 1): 2, (1, 3): 3}
 """A room of each route that no other needs."""
+COLOURS = {1: BLUE, 2: ORANGE, 3: GREEN}
+"""Of the routes."""
 STAY = GRID.names.index("stay")
 STEPS = 20
 """Of a run; then the agent is back at the start, without a word."""
@@ -58,65 +65,39 @@ class TolmanRun:
     """One run from the start.
 
     Attributes:
-        closed: the room that was closed, if any.
-        path: the room at each observation, the start first.
+        attempted: the first route that it set out on; None if it never left.
+        route: the route on which the goal was reached; None if it was not.
         reached_at: the step at which the agent chose to stay at the goal, None if never.
-        knew: whether it had seen the goal before this run.
+        met_at: the step at which it first stood where the closed room bars the way to the goal; None if never.
+        missed: why it missed the goal, one of `MISSED`; None if it did not.
         wrong: observations at which the place it held most probable was not the true one.
+        path: the room at each observation, the start first.
     """
 
-    closed: Position | None
-    path: tuple[Position, ...]
+    attempted: int | None
+    route: int | None
     reached_at: int | None
-    knew: bool = True
-    wrong: int = 0
+    met_at: int | None
+    missed: str | None
+    wrong: int
+    path: tuple[Position, ...]
 
-    @property
-    def attempted(self) -> int | None:
-        """The first route that it set out on; None if it never left."""
-        moves = zip(self.path, self.path[1:], strict=False)
-        return next((BRANCHES[to] for at, to in moves if at == START and to in BRANCHES), None)
-
-    @property
-    def route(self) -> int | None:
-        """The route on which the goal was reached; None if it was not."""
-        if self.reached_at is None:
-            return None
-        way = [GATES[room] for room in self.path[: self.reached_at + 1] if room in GATES]
-        return way[-1]
-
-    @property
-    def met_at(self) -> int | None:
-        """The step at which it first stood where the closed room bars the way to the goal; None if never."""
-        before = BEFORE.get(self.closed) if self.closed is not None else None
-        return self.path.index(before) if before in self.path else None
-
-    @property
-    def missed(self) -> str | None:
-        """Why it missed the goal, one of `MISSED`; None if it did not."""
-        if self.reached_at is not None:
-            return None
-        if not self.knew:
-            return "searching"
-        if 2 * self.wrong > len(self.path):
-            return "lost"
-        if self.closed is not None and self.met_at is not None:
-            way = shortest_path(MAZE, self.path[self.met_at], GOAL, closed=(self.closed,))
-            if self.met_at + len(way) > len(self.path):
-                return "too late"
-        return "exploring"
-
-    def to_dict(self) -> dict[str, Any]:
-        """The run as plain JSON values."""
-        return {
-            "attempted": self.attempted,
-            "route": self.route,
-            "reached_at": self.reached_at,
-            "met_at": self.met_at,
-            "missed": self.missed,
-            "wrong": self.wrong,
-            "path": [list(room) for room in self.path],
-        }
+    @classmethod
+    def of(
+        cls,
+        path: tuple[Position, ...],
+        reached_at: int | None,
+        *,
+        closed: Position | None,
+        knew: bool = True,
+        wrong: int = 0,
+    ) -> TolmanRun:
+        """What this path comes to; `knew`: whether the agent had seen the goal before this run."""
+        attempted = next((BRANCHES[to] for at, to in pairwise(path) if at == START and to in BRANCHES), None)
+        route = None if reached_at is None else [GATES[room] for room in path[: reached_at + 1] if room in GATES][-1]
+        met_at = path.index(BEFORE[closed]) if closed in BEFORE and BEFORE[closed] in path else None
+        missed = None if reached_at is not None else _missed(path, closed, met_at, knew, wrong)
+        return cls(attempted, route, reached_at, met_at, missed, wrong, path)
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,10 +118,6 @@ class Choice:
     again: int
     steps: int
 
-    def to_dict(self) -> dict[str, Any]:
-        """The fields as plain JSON values."""
-        return asdict(self)
-
 
 def choice_after(runs: Sequence[TolmanRun]) -> Choice | None:
     """What was tried next after the closed room was first met; None if it never was, or nothing was tried.
@@ -150,7 +127,7 @@ def choice_after(runs: Sequence[TolmanRun]) -> Choice | None:
     met_by, again, steps = None, 0, 0
     for run in runs:
         by = run.attempted or 0
-        for step, (at, to) in enumerate(zip(run.path, run.path[1:], strict=False)):
+        for step, (at, to) in enumerate(pairwise(run.path)):
             if met_by is None and step == run.met_at:
                 met_by, steps = by, 0
             steps += 1
@@ -165,17 +142,6 @@ def choice_after(runs: Sequence[TolmanRun]) -> Choice | None:
     return None
 
 
-def check_counts(study: str, **counts: int) -> None:
-    """Refuse to do something less than once.
-
-    Raises:
-        CogmapError: a count below 1.
-    """
-    for name, number in counts.items():
-        if number < 1:
-            raise CogmapError(f"{study}: {name} is {number}; use 1 or more")
-
-
 def new_agent(settings: Settings, seed: int) -> Agent:
     """An agent that knows nothing, and hopes for the goal."""
     agent = Agent(GRID, settings=settings, seed=seed)
@@ -183,59 +149,11 @@ def new_agent(settings: Settings, seed: int) -> Agent:
     return agent
 
 
-def new_world(*, closed: Position | None = None) -> MazeEnv:
+def new_world() -> MazeEnv:
     """The maze, with somebody at the start."""
     world = MazeEnv(MAZE)
     world.reset(options={"start": START})
-    if closed is not None:
-        world.close_room(closed)
     return world
-
-
-def agent_run(agent: Agent, world: MazeEnv, *, steps: int = STEPS, ends: bool = False) -> TolmanRun:
-    """One run of an agent that was first put at the start, and has been put there again now without a word."""
-    knew, wrong = agent.map.sights.find(SIGHT) is not None, 0
-
-    def watch() -> None:
-        nonlocal wrong
-        row, column = world.position
-        wrong += agent.belief.place != agent.map.place_at((row - START[0], column - START[1]))
-
-    path, reached_at = walk(agent, world, steps=steps, ends=ends, watch=watch)
-    return TolmanRun(next(iter(world.closed_rooms), None), path, reached_at, knew, wrong)
-
-
-def walk(
-    walker: Walker,
-    world: MazeEnv,
-    *,
-    steps: int = STEPS,
-    ends: bool = False,
-    watch: Callable[[], None] | None = None,
-) -> tuple[tuple[Position, ...], int | None]:
-    """The rooms of a run from the start, and the step at which the walker chose to stay at the goal.
-
-    Args:
-        walker: whoever is put there, without a word.
-        world: where.
-        steps: of the run.
-        ends: whether the run is over at the goal.
-        watch: called after each choice, before it is carried out.
-    """
-    world.displace(START)
-    path: list[Position] = []
-    reached_at = None
-    for step in range(steps):
-        path.append(world.position)
-        action = walker.step(world.observe())
-        if watch is not None:
-            watch()
-        if reached_at is None and world.position == GOAL and action == STAY:
-            reached_at = step
-            if ends:
-                break
-        world.step(action)
-    return tuple(path), reached_at
 
 
 def set_closed(world: MazeEnv, *, room: Position | None = None, doors: Sequence[Door] = ()) -> None:
@@ -249,3 +167,77 @@ def set_closed(world: MazeEnv, *, room: Position | None = None, doors: Sequence[
         world.close_room(room)
     for door in doors:
         world.close_door(*door)
+
+
+def agent_run(agent: Agent, world: MazeEnv) -> TolmanRun:
+    """One run of an agent that was first put at the start, and has been put there again now without a word."""
+    knew, wrong = agent.map.sights.find(SIGHT) is not None, 0
+
+    def watch() -> None:
+        nonlocal wrong
+        row, column = world.position
+        wrong += agent.belief.place != agent.map.place_at((row - START[0], column - START[1]))
+
+    path, reached_at = walk(agent, world, watch=watch)
+    return TolmanRun.of(path, reached_at, closed=next(iter(world.closed_rooms), None), knew=knew, wrong=wrong)
+
+
+def walk(
+    walker: Any,
+    world: MazeEnv,
+    *,
+    steps: int = STEPS,
+    ends: bool = False,
+    before: Callable[[], None] = lambda: None,
+    watch: Callable[[], None] = lambda: None,
+) -> tuple[tuple[Position, ...], int | None]:
+    """The rooms of a run from the start, and the step at which the walker chose to stay at the goal.
+
+    Args:
+        walker: whoever is put there, without a word.
+        world: where.
+        steps: of the run.
+        ends: whether the run is over at the goal.
+        before: called before each observation.
+        watch: called after each choice, before it is carried out.
+    """
+    world.displace(START)
+    path: list[Position] = []
+    reached_at = None
+    for step in range(steps):
+        path.append(world.position)
+        before()
+        action = walker.step(world.observe())
+        watch()
+        if reached_at is None and world.position == GOAL and action == STAY:
+            reached_at = step
+            if ends:
+                break
+        world.step(action)
+    return tuple(path), reached_at
+
+
+def plot_tolman_flow(ax: Axes, paths: Sequence[Sequence[Position]], *, closed: Position | None) -> None:
+    """How often each door was walked through, and what the rooms are called."""
+    from matplotlib.patheffects import withStroke
+
+    plot_flow(ax, MAZE, paths, closed=closed)
+    paper = theme_of(ax).paper
+    for room, name in ((START, "start"), (GOAL, "goal"), (A, "A"), (B, "B")):
+        down, across = {START: (0.72, 0.0), GOAL: (-0.72, 0.0)}.get(room, (0.0, 0.62))
+        side = "left" if across else "center"
+        text = ax.text(room[1] + across, room[0] + down, name, ha=side, va="center", size=12, weight="bold", zorder=6)
+        text.set_path_effects([withStroke(linewidth=3, foreground=paper)])
+    ax.set_ylim(max(ax.get_ylim()[0], 6.95), min(ax.get_ylim()[1], -0.95))
+
+
+def _missed(path: Sequence[Position], closed: Position | None, met_at: int | None, knew: bool, wrong: int) -> str:
+    if not knew:
+        return "searching"
+    if 2 * wrong > len(path):
+        return "lost"
+    if closed is not None and met_at is not None:
+        way = shortest_path(MAZE, path[met_at], GOAL, closed=(closed,))
+        if met_at + len(way) > len(path):
+            return "too late"
+    return "exploring"
