@@ -2,39 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from statistics import median
 from time import perf_counter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...agent import Settings
 from ...views import theme_of
 from ...worlds import MAZES, MazeEnv
-from .. import CSCG, Ledger, draw_start, make_walker, sensed
-from .figures import errors, panels
-from .grid import LOOKS, TITLES, plain_tick
+from .. import CSCG, Parts, draw_start, run
+from .figures import Figure, errors, panels
+from .grid import LOOKS
 from .intervals import Interval
-from .study import Findings, Study, at_least
-from .tables import Table
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .study import Findings, Study
+from .tables import Table, Value
 
 MODELS = ("cogmap", *CSCG, "random")
 WORLD = "4x4"
 STEPS = 100
-WARM = 6
-"""Steps that each agent walks untimed before: what is imported late is not counted."""
+WARM = 6  # steps that each agent walks untimed before: what is imported late is not counted
 PAPER = {"cogmap": 14.95, "cscg": 48.35}
 """For 100 forced exploring steps, look-ahead 6; mean of 5 runs. Maze and variant of CSCG are not said."""
 AUTHORS = {"cogmap": 31.3, "cscg": 1.9}
 """The same of the authors' code as measured in the 4x4 maze; CSCG compiled by numba, compilation left out."""
 
-Task = tuple[str, int]
-"""Agent, seed."""
+Task = tuple[str, int]  # agent, seed
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,18 +42,13 @@ class Time:
 
 @dataclass(frozen=True)
 class Cost(Study[Task, Time]):
-    """Every agent is timed; it goes on exploring when there is nothing left to explore.
+    """Seconds for a hundred steps
 
-    Attributes:
-        steps: that are timed.
+    How long do 100 forced exploring steps take in the 4x4 maze? The agent goes on when there is nothing
+    left to explore. The paper's table of computation time; look-ahead 6.
     """
 
     name = "cost"
-    title = "Seconds for a hundred steps"
-    question = (
-        "How long do 100 forced exploring steps take in the 4x4 maze? The agent goes on when there is nothing "
-        "left to explore. The paper's table of computation time; look-ahead 6."
-    )
     notes = (
         "Runs are timed in one process, one after the other, whatever --jobs or --dask say, and the models take turns.",
         "Each model walks a few steps untimed first, so that late imports are not counted; the world's part is.",
@@ -69,81 +58,50 @@ class Cost(Study[Task, Time]):
     )
     agents = 5
     settings = Settings(look_ahead=6)
+    alone = True
 
-    steps: int = STEPS
-
-    def __post_init__(self) -> None:
-        at_least(self.name, 1, steps=self.steps)
+    steps: int = STEPS  # that are timed
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Task]:
         """The agents take turns, so that a machine that is slow for a while is slow for all."""
         return [(agent, seed) for seed in seeds for agent in MODELS]
 
     def run(self, task: Task, settings: Settings) -> Time:
-        """Seconds from an agent that knows nothing to its last action, the world's part included."""
+        """From an agent that knows nothing to its last action, the world's part included."""
         _seconds(*task, settings, min(WARM, self.steps))
         return Time(*task, round(_seconds(*task, settings, self.steps), 5))
-
-    def work(
-        self,
-        tasks: Sequence[Task],
-        settings: Settings,
-        *,
-        executor: Executor | None,
-        ledger: Ledger | None,
-        on_done: Callable[[], None] | None,
-    ) -> list[Time]:
-        """In this process, one after the other: runs beside each other would not be timed honestly."""
-        return super().work(tasks, settings, executor=None, ledger=ledger, on_done=on_done)
 
     def summarise(self, rows: Sequence[Time]) -> Findings:
         """Median and range by agent, beside what was published."""
         every = {agent: [row.seconds for row in rows if row.agent == agent] for agent in MODELS}
         times = {agent: Interval(median(part), min(part), max(part), len(part)) for agent, part in every.items()}
+        whole, by_agent = (
+            f"{self.steps} forced exploring steps in {WORLD}",
+            sorted(rows, key=lambda row: MODELS.index(row.agent)),
+        )
+        count = len(every["cogmap"])
         summary = [
-            {
-                "agent": agent,
-                **{"median": round(time.value, 5), "fastest": time.low, "slowest": time.high},
-                "seconds": every[agent],
-                "paper": PAPER.get(agent),
-                "authors": AUTHORS.get(agent),
-            }
+            {"agent": agent, "median": round(time.value, 5), "fastest": time.low, "slowest": time.high}
+            | {"seconds": every[agent], "paper": PAPER.get(agent), "authors": AUTHORS.get(agent)}
             for agent, time in times.items()
         ]
-        by_agent = sorted(rows, key=lambda row: MODELS.index(row.agent))
-        whole, count = f"{self.steps} forced exploring steps in {WORLD}", len(every["cogmap"])
+        heads = ("model", "median", "fastest", "slowest", "paper", "authors' code")
+        runs = [(row.agent, row.seed, row.seconds) for row in by_agent]
         protocol = {"world": WORLD, "steps": self.steps, "warm_up_steps": WARM, "processes": 1}
-        return Findings(
-            json={"protocol": protocol, "rows": by_agent, "summary": summary},
-            lines=[f"seconds for {whole}, median (range) of {count}", *(_line(*item) for item in times.items())],
-            figures={"cost_seconds": partial(_figure, whole, times)},
-            tables=[
-                Table(
-                    "cost",
-                    ("agent", "seed", "seconds"),
-                    [(r.agent, r.seed, r.seconds) for r in by_agent],
-                    "every run",
-                    False,
-                ),
-                Table(
-                    "cost_table",
-                    ("model", "median", "fastest", "slowest", "paper", "authors' code"),
-                    [_row(*item) for item in times.items()],
-                    f"Seconds for {whole}, of {count} runs.",
-                ),
-            ],
-        )
+        tables = [
+            Table("cost", ("agent", "seed", "seconds"), runs, "every run", shown=False),
+            Table("cost_table", heads, [_row(*i) for i in times.items()], f"Seconds for {whole}, of {count} runs."),
+        ]
+        lines = [f"seconds for {whole}, median (range) of {count}", *(_line(*item) for item in times.items())]
+        json = {"protocol": protocol, "rows": by_agent, "summary": summary}
+        return Findings(json, lines, {"cost_seconds": partial(_figure, whole, times)}, tables)
 
 
 def _seconds(agent: str, seed: int, settings: Settings, steps: int) -> float:
-    maze = MAZES[WORLD]
-    start, for_agent, _ = draw_start("cost", maze, seed)
-    world = MazeEnv(maze)
-    observation, info = world.reset(options={"start": start})
+    start, for_agent, _ = draw_start("cost", MAZES[WORLD], seed)
+    world = MazeEnv(MAZES[WORLD])
     begin = perf_counter()
-    walker = make_walker(agent, maze, settings=settings, seed=for_agent)
-    for _ in range(steps):
-        observation, _, _, _, info = world.step(walker.step(sensed(walker, observation, info["position"])))
+    run(world, Parts(agent, settings).make(world, for_agent), steps=steps, options={"start": start})
     return perf_counter() - begin
 
 
@@ -151,35 +109,29 @@ def _line(agent: str, time: Interval) -> str:
     published = ((PAPER, "paper"), (AUTHORS, "authors' code"))
     beside = ", ".join(f"{name} {figures[agent]:g}" for figures, name in published if agent in figures)
     spread = f"({time.low:.3g} to {time.high:.3g})"
-    return f"  {TITLES[agent]:<17}{time.value:>8.3g} {spread:<20}{beside}".rstrip()
+    return f"  {LOOKS[agent][0]:<17}{time.value:>8.3g} {spread:<20}{beside}".rstrip()
 
 
-def _row(agent: str, time: Interval) -> tuple[str | float | None, ...]:
+def _row(agent: str, time: Interval) -> tuple[Value, ...]:
     own = (float(f"{value:.3g}") for value in (time.value, time.low, time.high))
-    return TITLES[agent], *own, PAPER.get(agent), AUTHORS.get(agent)
+    return LOOKS[agent][0], *own, PAPER.get(agent), AUTHORS.get(agent)
 
 
 def _figure(title: str, times: dict[str, Interval]) -> Figure:
-    from matplotlib.ticker import FuncFormatter
+    from matplotlib.ticker import StrMethodFormatter
 
-    figure, (ax,) = panels("", 1, (8.0, 0.5 * len(times) + 1.9))
-    at, medians, theme = list(range(len(times))), [time.value for time in times.values()], theme_of(ax)
-    ax.set_xscale("log")
-    ax.barh(at, medians, 0.6, color=[LOOKS[agent][0] for agent in times])
-    look: dict[str, Any] = {"fmt": "none", "ecolor": theme.ink, "elinewidth": 1.2, "capsize": 3}
-    ax.errorbar(medians, at, xerr=errors(list(times.values())), **look)
+    figure, (ax,) = panels("", (1, 1), (8.0, 0.5 * len(times) + 1.9))
+    at, medians, theme = range(len(times)), [time.value for time in times.values()], theme_of(ax)
+    ax.barh(at, medians, 0.6, color=[LOOKS[agent][1] for agent in times])
+    ax.errorbar(medians, at, xerr=errors([*times.values()]), fmt="none", ecolor=theme.ink, elinewidth=1.2, capsize=3)
+    look: dict[str, Any] = {"color": theme.ink, "markerfacecolor": theme.paper}
     for figures, marker, name in ((PAPER, "x", "the paper"), (AUTHORS, "D", "the authors' code")):
-        ys = [list(times).index(agent) for agent in figures]
-        style: dict[str, Any] = {"marker": marker, "color": theme.ink, "markerfacecolor": theme.paper}
-        ax.plot(list(figures.values()), ys, linestyle="none", label=name, **style)
-    ax.set_yticks(at, [TITLES[agent] for agent in times])
+        ax.plot([*figures.values()], [[*times].index(agent) for agent in figures], marker, label=name, **look)
+    ax.set(xscale="log", xlim=(min(medians) / 3, max(*medians, *PAPER.values()) * 2))
+    ax.set_yticks(at, [LOOKS[agent][0] for agent in times])
     ax.invert_yaxis()
-    ax.set_xlim(min(medians) / 3, max(*medians, *PAPER.values()) * 2)
-    ax.xaxis.set_major_formatter(FuncFormatter(plain_tick))
+    ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     ax.set_xlabel("seconds (bars: median, lines: range)")
     ax.set_title(title, pad=10)
     ax.legend(fontsize=8, frameon=False, loc="lower right")
     return figure
-
-
-STUDY = Cost()

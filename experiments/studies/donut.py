@@ -6,21 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...agent import Agent, Settings
 from ...views import BLUE, VERMILION
 from ...worlds import MAZES, Label, Position, shortest_path
-from .. import Session, default_steps, explored, mean, number
-from .figures import draw_room, plot_ways
-from .imagined import ImaginedPath, imagined_paths
+from .. import Moment, Session, default_steps, explored, mean, number
+from .figures import Axes, Figure, ImaginedPath, draw_room, imagined_paths, panels, plot_ways
 from .study import Findings, Study, failed_seeds
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 MAZE = MAZES["donut"]
 CORNER: Position = (0, 0)
@@ -29,110 +24,86 @@ GOAL: Label = MAZE.sights[GOAL_ROOM]
 CLOSED: Position = (0, 2)
 DOORS: dict[str, tuple[Position, str]] = {"from the left": ((0, 1), "right"), "from the right": ((0, 3), "left")}
 """The doors of the closed room: from where, and the action that leads in."""
-WEIGHT = 1.0
-"""Log preference of the goal, in nats: as much weight on exploiting as on exploring."""
-MOST = 40
-"""Moves after which the agent has not found the goal."""
+WEIGHT = 1.0  # log preference of the goal, in nats: as much weight on exploiting as on exploring
+MOST = 40  # moves after which the agent has not found the goal
 FRAMES, ACROSS = 11, 4
 
 
 @dataclass(frozen=True, slots=True)
 class DonutStep:
-    """One observation after the move.
+    """One observation after the move."""
 
-    Attributes:
-        room: where the agent is.
-        action: what it chose, by name.
-        probability: P(policy) of the chosen one.
-        first_action: P(first action) by name.
-        paths: what the policies imagine, the most probable path first.
-        way_open: P(way open) of each door in `DOORS`, after this observation.
-    """
-
-    room: Position
-    action: str
-    probability: float
-    first_action: dict[str, float]
-    paths: tuple[ImaginedPath, ...]
-    way_open: dict[str, float]
+    room: Position  # where the agent is
+    action: str  # what it chose
+    probability: float  # P(policy) of the chosen one
+    first_action: dict[str, float]  # P(first action)
+    paths: tuple[ImaginedPath, ...]  # what the policies imagine, the most probable path first
+    way_open: dict[str, float]  # P(way open) of each of `DOORS`, after this observation
 
 
 @dataclass(frozen=True, slots=True)
 class DonutRow:
-    """One agent.
-
-    Attributes:
-        seed: of its start and of all it does.
-        start: the room where it began to explore.
-        steps_to_explore: None where it gave up, and was not moved.
-        reached: whether it chose to stay at the goal.
-        moves: actions until then; None if never.
-        met_closed_room: whether it came to a door of the closed room.
-        second_tries: how often it took the closed way again from the corner, or tried to enter the closed room.
-        bumps: how often it tried to enter the closed room.
-        path: the rooms, from the corner on.
-        steps: every observation after the move.
-    """
+    """One agent."""
 
     seed: int
-    start: Position
-    steps_to_explore: int | None
-    reached: bool
-    moves: int | None
-    met_closed_room: bool
-    second_tries: int
-    bumps: int
-    path: tuple[Position, ...]
-    steps: tuple[DonutStep, ...]
+    start: Position  # the room where it began to explore
+    steps_to_explore: int | None  # None where it gave up, and was not moved
+    reached: bool  # whether it chose to stay at the goal
+    moves: int | None  # until then
+    met_closed_room: bool  # whether it came to a door of the closed room
+    second_tries: int  # how often it took the closed way again from the corner, or bumped
+    bumps: int  # how often it tried to enter the closed room
+    path: tuple[Position, ...]  # from the corner on
+    steps: tuple[DonutStep, ...]  # after the move
 
     @classmethod
-    def of(
-        cls, seed: int, start: Position, explored: int | None, steps: Sequence[DonutStep] = (), reached: bool = False
-    ) -> DonutRow:
+    def of(cls, seed: int, start: Position, explored: int | None, steps: Sequence[DonutStep]) -> DonutRow:
         """What these steps come to."""
         path = tuple(step.room for step in steps)
+        reached = bool(steps) and (path[-1], steps[-1].action) == (GOAL_ROOM, "stay")
         bumps = sum((step.room, step.action) in DOORS.values() for step in steps)
         again = sum(way == (CORNER, DOORS["from the left"][0]) for way in pairwise(path)) - 1
-        moves = len(steps) - 1 if reached else None
-        met = any(room in path for room, _ in DOORS.values())
+        met, moves = any(room in path for room, _ in DOORS.values()), len(steps) - 1 if reached else None
         return cls(seed, start, explored, reached, moves, met, max(again, 0) + bumps, bumps, path, tuple(steps))
 
 
 class Donut(Study[int, DonutRow]):
-    """Each agent explores; a room on its way to the goal is closed, it is moved to the corner without a word."""
+    """A way that was closed
+
+    On its way round the donut the agent meets a room that has been closed since it explored. Does it turn
+    back at once and take the long way round?
+    """
 
     name = "donut"
-    title = "A way that was closed"
-    question = (
-        "On its way round the donut the agent meets a room that has been closed since it explored. Does it turn "
-        "back at once and take the long way round?"
-    )
     notes = ("The paper shows one agent; here every agent is counted, and one is drawn.",)
     settings = Settings(look_ahead=12)  # from the closed room the way round is 9 moves and a `stay`
 
     def run(self, task: int, settings: Settings) -> DonutRow:
-        """The agent with this seed."""
+        """Let it explore, move it to the corner without a word, and watch it."""
         session = explored("donut", MAZE, settings=settings, seed=task, most=default_steps(MAZE))
-        if session.steps is None:
-            return DonutRow.of(task, session.start, None)
-        session.world.displace(CORNER)
-        session.world.close_room(CLOSED)
-        return DonutRow.of(task, session.start, session.steps, *_walk(session))
+        steps: list[DonutStep] = []
+
+        def note(moment: Moment) -> bool:
+            steps.append(_step(session))
+            return (session.place, steps[-1].action) == (GOAL_ROOM, "stay")
+
+        if session.steps is not None:
+            session.world.displace(CORNER)
+            session.world.close_room(CLOSED)
+            session.agent.prefer({GOAL: WEIGHT})
+            session.run(MOST + 1, note)
+        return DonutRow.of(task, session.start, session.steps, steps)
 
     def summarise(self, rows: Sequence[DonutRow]) -> Findings:
         """Counts over the agents, and the frames of the first that explored."""
         done = [row for row in rows if row.steps_to_explore is not None]
         protocol = {"moved_to": CORNER, "goal": GOAL, "weight": WEIGHT, "closed": CLOSED, "max_moves": MOST}
         summary = _summary(rows)
-        return Findings(
-            json={"world": MAZE.name, "protocol": protocol, "rows": rows, "summary": summary},
-            lines=_lines(summary),
-            figures={"donut_frames": partial(_frames, done[0])} if done else {},
-            failed=[
-                *failed_seeds("did not explore the maze", rows, lambda row: row.steps_to_explore is None),
-                *failed_seeds("did not reach the goal", rows, lambda row: row in done and not row.reached),
-            ],
-        )
+        json = {"world": MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
+        figures = {"donut_frames": partial(_frames, done[0])} if done else {}
+        failed = failed_seeds("did not explore the maze", rows, lambda row: row.steps_to_explore is None)
+        failed += failed_seeds("did not reach the goal", rows, lambda row: row in done and not row.reached)
+        return Findings(json, _lines(summary), figures, failed=failed)
 
 
 def detour() -> int:
@@ -142,36 +113,18 @@ def detour() -> int:
     return sum(len(way) - 1 for way in ways)
 
 
-def _walk(session: Session) -> tuple[list[DonutStep], bool]:
-    agent, world = session.agent, session.world
-    agent.prefer({GOAL: WEIGHT})
-    steps: list[DonutStep] = []
-    while True:
-        observation = world.observe()
-        action = agent.step(observation)
-        steps.append(_step(agent, world.position, session.start))
-        at_goal = action == agent.map.motions.stay and observation["sight"] == GOAL
-        if at_goal or len(steps) > MOST:
-            return steps, at_goal
-        world.step(action)
-
-
-def _step(agent: Agent, room: Position, start: Position) -> DonutStep:
-    plan, names = agent.plan, agent.map.motions.names
+def _step(session: Session[Agent]) -> DonutStep:
+    map_, plan = session.agent.map, session.agent.plan
+    names = map_.motions.names
+    doors = {name: (session.truth.place(map_, at), names.index(action)) for name, (at, action) in DOORS.items()}
     return DonutStep(
-        room=room,
+        room=session.place,
         action=names[plan.action],
         probability=float(plan.probability[plan.chosen]),
         first_action=dict(zip(names, plan.action_probability.tolist(), strict=True)),
-        paths=imagined_paths(plan, agent.map, start),
-        way_open={name: _open(agent, at, action, start) for name, (at, action) in DOORS.items()},
+        paths=imagined_paths(plan, map_, session.start),
+        way_open={name: float(1.0 - map_.blocked(np.array([at]))[0, way]) for name, (at, way) in doors.items()},
     )
-
-
-def _open(agent: Agent, at: Position, action: str, start: Position) -> float:
-    place = agent.map.place_at((at[0] - start[0], at[1] - start[1]))
-    assert place is not None  # it has explored the maze
-    return float(1.0 - agent.map.blocked(np.array([place]))[0, agent.map.motions.names.index(action)])
 
 
 def _summary(rows: Sequence[DonutRow]) -> dict[str, Any]:
@@ -202,37 +155,26 @@ def _lines(summary: dict[str, Any]) -> list[str]:
 
 
 def _frames(row: DonutRow) -> Figure:
-    from matplotlib.figure import Figure
-
     count = min(len(row.steps), FRAMES)
-    shown = [round(frame * (len(row.steps) - 1) / max(count - 1, 1)) for frame in range(count)]
-    down = -(-(count + 1) // ACROSS)
-    figure = Figure(figsize=(14.0, 3.1 * down + 0.9), layout="constrained")
-    title = (
-        "Path so far (white), paths imagined (darker: more probable), the closed room (hatched), the goal (red square)"
-    )
-    figure.suptitle(title, fontsize=13)
-    axes = figure.subplots(down, ACROSS, squeeze=False).ravel()
+    shown, down = np.linspace(0, len(row.steps) - 1, count).round().astype(int), -(-(count + 1) // ACROSS)
+    title = "Path so far (white), paths imagined (darker: more probable), the closed room (hatched), goal (red square)"
+    figure, axes = panels(title, (down, ACROSS), (14.0, 3.1 * down + 0.9))
     for ax in axes[count:]:
         ax.set_axis_off()
-    for ax, number_ in zip(axes, shown, strict=False):
-        step = row.steps[number_]
-        plot_ways(ax, MAZE, closed=CLOSED, imagined=step.paths, way=row.path[: number_ + 1])
-        draw_room(ax, GOAL_ROOM, facecolor="none", edgecolor="#cc0000", linewidth=3.0, zorder=2.2)
-        ax.set_title(f"{number_ + 1}) {step.action}, P = {step.first_action[step.action]:.2f}", fontsize=12)
+    for ax, frame in zip(axes, shown.tolist(), strict=False):
+        step = row.steps[frame]
+        plot_ways(ax, MAZE, closed=CLOSED, imagined=step.paths, way=row.path[: frame + 1])
+        draw_room(ax, GOAL_ROOM, facecolor="none", edgecolor="red", linewidth=3.0, zorder=2.2)
+        ax.set_title(f"{frame + 1}) {step.action}, P = {step.first_action[step.action]:.2f}", fontsize=12)
     _draw_way_open(axes[-1].inset_axes((0.12, 0.14, 0.86, 0.78)), row)  # its labels take no room from the frames
     return figure
 
 
 def _draw_way_open(ax: Axes, row: DonutRow) -> None:
     frames = range(1, len(row.steps) + 1)
-    for name, colour, style, marker in zip(DOORS, (BLUE, VERMILION), ("-", "--"), ("o", "s"), strict=True):
-        values = [step.way_open[name] for step in row.steps]
-        ax.plot(frames, values, label=name, color=colour, linestyle=style, marker=marker, markersize=5)
+    for name, look in zip(DOORS, ({"color": BLUE, "marker": "o"}, {"color": VERMILION, "marker": "s"}), strict=True):
+        ax.plot(frames, [step.way_open[name] for step in row.steps], label=name, markersize=5, **look)
     ax.set_ylim(-0.05, 1.05)
     ax.set_xlabel("frame")
     ax.set_title("P(way open) into the closed room", fontsize=12)
     ax.legend(frameon=False, loc="center right")
-
-
-STUDY = Donut()

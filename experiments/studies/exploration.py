@@ -10,66 +10,65 @@ agent; 4 or 5 of CSCG, given up after 400 steps, 3x3 and T mazes only). One thre
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 from .. import CSCG, Row
-from .grid import COMPLETE, COUNTED, LEARN, LEGEND, MARK, NONE, STARTS, TITLES, Explorations, Steps, factor_text
-from .intervals import Interval
+from .grid import (
+    COMPLETE,
+    COUNTED,
+    LEARN,
+    LEGEND,
+    LOOKS,
+    MARK,
+    NONE,
+    Explorations,
+    Grid,
+    Steps,
+    factor_text,
+    steps_figure,
+)
+from .intervals import Interval, bootstrap
 from .study import Findings
-from .tables import Table
+from .tables import Table, Value
+
+Figure = tuple[float, float | None] | tuple[float, float | None, int, int]
+"""A published mean, its standard deviation (None where it was not given, or of one run), and how many got there of how
+many, where it was said."""
 
 
-@dataclass(frozen=True, slots=True)
-class Figure:
-    """A published mean."""
-
-    mean: float  # over the runs that got there
-    std: float | None = None  # of the same; None where it was not given, or of one run
-    got: int | None = None  # how many those were; None where it was not said
-    of: int | None = None  # how many there were; None where it was not said
-
-    def __str__(self) -> str:
-        spread = "" if self.std is None else f" ± {self.std:g}"
-        return f"{self.mean:g}{spread}" + ("" if self.got is None else f" ({self.got}/{self.of})")
+def _by_model(rows: Mapping[str, Sequence[Figure]], models: Sequence[str]) -> dict[tuple[str, str], Figure]:
+    return {(world, model): one for world, row in rows.items() for model, one in zip(models, row, strict=False)}
 
 
-_MODELS = ("oracle", "cogmap", *CSCG)
-_PAPER: dict[str, tuple[tuple[float, float | None], ...]] = {
-    "3x3": ((11, None), (14.4, 2), (231.9, 59), (221.3, 35), (214.6, 44), (205.7, 22)),
-    "3x3_alias": ((11, None), (18.1, 2), (376.3, 35), (201.5, 20), (338.8, 30), (210.4, 22)),
-    "4x4": ((15, None), (34.0, 4), (375.7, 36), (405.5, 78), (419.6, 98), (380.5, 53)),
-    "4x4_alias": ((15, None), (48.9, 9), (509.5, 107), (387.5, 67), (554.1, 70), (391.3, 66)),
-    "t_maze": ((9, None), (12.5, 1), (284.5, 69), (297.7, 108), (261.7, 96), (232.5, 73)),
-    "t_maze_alias": ((9.5, None), (14.3, 4), (592.5, 28), (282.7, 124), (602.0, 69), (341.0, 75)),
-    "donut": ((13, None), (15.6, 2), (519.6, 127), (450.0, 87), (416.3, 105), (493.1, 132)),
-}
-PAPER: dict[tuple[str, str], Figure] = {
-    (world, model): Figure(*figure) for world, row in _PAPER.items() for model, figure in zip(_MODELS, row, strict=True)
-}
+PAPER = _by_model(
+    {
+        "3x3": ((11, None), (14.4, 2), (231.9, 59), (221.3, 35), (214.6, 44), (205.7, 22)),
+        "3x3_alias": ((11, None), (18.1, 2), (376.3, 35), (201.5, 20), (338.8, 30), (210.4, 22)),
+        "4x4": ((15, None), (34.0, 4), (375.7, 36), (405.5, 78), (419.6, 98), (380.5, 53)),
+        "4x4_alias": ((15, None), (48.9, 9), (509.5, 107), (387.5, 67), (554.1, 70), (391.3, 66)),
+        "t_maze": ((9, None), (12.5, 1), (284.5, 69), (297.7, 108), (261.7, 96), (232.5, 73)),
+        "t_maze_alias": ((9.5, None), (14.3, 4), (592.5, 28), (282.7, 124), (602.0, 69), (341.0, 75)),
+        "donut": ((13, None), (15.6, 2), (519.6, 127), (450.0, 87), (416.3, 105), (493.1, 132)),
+    },
+    ("oracle", "cogmap", *CSCG),
+)
 """Steps to learn by maze and model, from the paper's table; `cogmap` stands for the paper's own agent."""
-
-_CSCG_AUTHORS: dict[str, tuple[Figure, ...]] = {
-    "3x3": (Figure(204, 24, 5, 5), Figure(225, 25, 5, 5), Figure(220, 34, 5, 5), Figure(225, 25, 5, 5)),
-    "3x3_alias": (Figure(360, None, 1, 5), Figure(213, 12, 5, 5), Figure(360, None, 1, 5), Figure(213, 12, 5, 5)),
-    "t_maze": (Figure(230, 57, 4, 4), Figure(280, 65, 3, 4), Figure(230, 57, 4, 4), Figure(293, 46, 3, 4)),
-}
-_OWN_AUTHORS: dict[str, tuple[float, float]] = {
-    "3x3": (14.2, 1.7),
-    "3x3_alias": (19.1, 5.1),
-    "4x4": (33.9, 5.7),
-    "4x4_alias": (42.9, 10.1),
-    "t_maze": (12.5, 1.3),
-    "t_maze_alias": (14.6, 5.7),
-    "donut": (14.9, 1.4),
-}
-AUTHORS: dict[tuple[str, str], Figure] = {
-    **{(world, "cogmap"): Figure(*own, 20, 20) for world, own in _OWN_AUTHORS.items()},
-    **{(world, name): one for world, row in _CSCG_AUTHORS.items() for name, one in zip(CSCG, row, strict=True)},
-}
+AUTHORS = _by_model(
+    {
+        "3x3": ((14.2, 1.7, 20, 20), (204, 24, 5, 5), (225, 25, 5, 5), (220, 34, 5, 5), (225, 25, 5, 5)),
+        "3x3_alias": ((19.1, 5.1, 20, 20), (360, None, 1, 5), (213, 12, 5, 5), (360, None, 1, 5), (213, 12, 5, 5)),
+        "4x4": ((33.9, 5.7, 20, 20),),
+        "4x4_alias": ((42.9, 10.1, 20, 20),),
+        "t_maze": ((12.5, 1.3, 20, 20), (230, 57, 4, 4), (280, 65, 3, 4), (230, 57, 4, 4), (293, 46, 3, 4)),
+        "t_maze_alias": ((14.6, 5.7, 20, 20),),
+        "donut": ((14.9, 1.4, 20, 20),),
+    },
+    ("cogmap", *CSCG),
+)
 """Steps to learn by maze and model, of the authors' code as measured."""
+FIGURE = "Steps to learn every transition (mean, 95 % bootstrap interval)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,24 +84,31 @@ class Factor:
     best_steps_to_learn: Steps
     paper_ratio: float | None  # the same in the paper's table; None where it has no such maze
 
-    def to_dict(self) -> dict[str, Any]:
-        """The fields as JSON values."""
-        every = {name: getattr(self, name) for name in self.__slots__}
-        return {name: value.to_dict() if isinstance(value, Steps) else value for name, value in every.items()}
+    @classmethod
+    def of(cls, world: str, best: str, learned: Steps, completed: Steps, its: Steps) -> Factor:
+        """Run by run with the same seeds."""
+        ratio = None if learned.censored else bootstrap(its.values, learned.values)
+        theirs = [PAPER[world, model][0] for model in CSCG if (world, model) in PAPER]
+        paper = round(min(theirs) / PAPER[world, "cogmap"][0], 1) if theirs else None
+        return cls(world, best, ratio, its.censored, learned, completed, its, paper)
+
+    @property
+    def text(self) -> str:
+        """The ratio."""
+        return factor_text(self.ratio, ".1f", censored=self.censored)
 
 
 @dataclass(frozen=True)
 class Exploration(Explorations):
-    """Every model explores every maze of the paper's table."""
+    """Steps to learn a maze
+
+    How many moves does each model make until it believes every true transition of the maze (walls lead back,
+    stay stays) at 0.6 or more? The paper's table: our agent beside four clone-structured graphs (CSCG), which
+    see the sights of rooms alone or with the true position (pose), and navigate by Viterbi or at random. Run i
+    has the seed S + i, which draws start and agent; every model sets out from the same starts.
+    """
 
     name = "exploration"
-    title = "Steps to learn a maze"
-    question = (
-        "How many moves does each model make until it believes every true transition of the maze (walls lead "
-        "back, stay stays) at 0.6 or more? The paper's table: our agent beside four clone-structured graphs "
-        "(CSCG), which see the sights of rooms alone or with the true position (pose), and navigate by Viterbi or"
-        f" at random. {STARTS}"
-    )
     notes = (
         COUNTED,
         "The paper's means leave out the runs of CSCG that never learned, and do not say how many.",
@@ -125,101 +131,68 @@ class Exploration(Explorations):
 
     def summarise(self, rows: Sequence[Row]) -> Findings:
         """The paper's table; ours beside the published; how many times our steps the best CSCG needs."""
-        summary, columns = self.summary(rows), ("oracle", *self.models)
-        steps = {(world, agent): self.steps(rows, world, agent) for world in self.worlds for agent in columns}
-        factors = self.factors(rows)
-        shown = [
-            Table(
-                "exploration_table",
-                ("maze", *(TITLES[agent] for agent in columns)),
-                [(world, *(_own(agent, steps[world, agent]) for agent in columns)) for world in self.worlds],
-                f"Steps to learn, as in the paper's table; mean ± standard deviation (learned of runs). {LEGEND}.",
-            ),
-            Table(
-                "exploration_compared",
-                ("maze", "model", "mean ± sd", "95 % interval", "learned", "paper", "authors' code"),
-                [_compared(*key, one) for key, one in steps.items()],
-                f"Steps to learn beside the published; interval of the mean by bootstrap. {LEGEND}.",
-            ),
-            Table(
-                "exploration_ratio",
-                ("maze", "cogmap learned", "cogmap complete", "best CSCG", "its steps", "ratio", "ratio in the paper"),
-                [_factor_row(factor) for factor in factors],
-                f"How many times the steps of cogmap the best CSCG needs, with 95 % interval. {LEGEND}.",
-            ),
+        grid, both = self.grid(rows), self.grid(rows, COMPLETE)
+        best = {world: agent for world in self.worlds if (agent := self.best(grid, world))}
+        factors = [
+            Factor.of(world, agent, grid[world, "cogmap"], both[world, "cogmap"], grid[world, agent])
+            for world, agent in best.items()
         ]
-        published = [{**row, **_published(row["world"], row["agent"])} for row in summary]
-        return Findings(
-            json={**self.json(rows, published), "ratios": [factor.to_dict() for factor in factors]},
-            lines=_lines(steps, factors),
-            figures={"exploration_steps": partial(self.figure, FIGURE, rows, _paper_mean, "the paper's mean")},
-            tables=self.tables(rows, summary, shown),
-            failed=self.failed(rows),
-        )
-
-    def factors(self, rows: Sequence[Row]) -> list[Factor]:
-        """By maze, if a CSCG took part."""
-        found: list[Factor] = []
-        for world in self.worlds:
-            if best := self.best(rows, world):
-                own, both = self.steps(rows, world), self.steps(rows, world, what=COMPLETE)
-                ratio = None if own.censored else best[1].over(own)
-                found.append(Factor(world, best[0], ratio, best[1].censored, own, both, best[1], _paper_factor(world)))
-        return found
+        means = {key: figure[0] for key, figure in PAPER.items()}
+        found = self.found(rows, grid, *_tables(grid, factors), more=[_published(key) for key in grid])
+        found["json"]["ratios"] = factors
+        figures = {"exploration_steps": partial(steps_figure, FIGURE, grid, self.cap, means, "the paper's mean")}
+        return Findings(lines=_lines(grid, factors), figures=figures, **found)
 
 
-FIGURE = "Steps to learn every transition (mean, 95 % bootstrap interval)"
+def _tables(grid: Grid, factors: Sequence[Factor]) -> list[Table]:
+    by_maze: dict[str, dict[str, Value]] = {}
+    for (world, agent), steps in grid.items():
+        by_maze.setdefault(world, {"maze": world})[LOOKS[agent][0]] = _own(agent, steps)
+    learned = f"Steps to learn, as in the paper's table; mean ± standard deviation (learned of runs). {LEGEND}."
+    compared = f"Steps to learn beside the published; interval of the mean by bootstrap. {LEGEND}."
+    times = f"How many times the steps of cogmap the best CSCG needs, with 95 % interval. {LEGEND}."
+    heads = ("maze", "model", "mean ± sd", "95 % interval", "learned", "paper", "authors' code")
+    ratios = ("maze", "cogmap learned", "cogmap complete", "best CSCG", "its steps", "ratio", "ratio in the paper")
+    return [
+        Table.of("exploration_table", list(by_maze.values()), learned),
+        Table("exploration_compared", heads, [_compared(key, steps) for key, steps in grid.items()], compared),
+        Table("exploration_ratio", ratios, [_factor(factor) for factor in factors], times),
+    ]
 
 
 def _own(agent: str, steps: Steps) -> str:
     return steps.mean_text() if agent == "oracle" else steps.counted_text()
 
 
-def _compared(world: str, agent: str, steps: Steps) -> tuple[str, ...]:
-    beside = (str(figures.get((world, agent), NONE)) for figures in (PAPER, AUTHORS))
-    count = NONE if agent == "oracle" else f"{steps.got_there}/{steps.runs}"
-    interval = f"{steps.low:.1f} to {steps.high:.1f}" + (MARK if steps.censored else "")
-    return (world, TITLES[agent], steps.mean_text(), interval, count, *beside)
+def _compared(key: tuple[str, str], steps: Steps) -> tuple[Value, ...]:
+    count = NONE if key[1] == "oracle" else f"{steps.got_there}/{steps.runs}"
+    interval = f"{steps.low:.1f} to {steps.high:.1f}" + MARK * steps.censored
+    return key[0], LOOKS[key[1]][0], steps.mean_text(), interval, count, _text(PAPER.get(key)), _text(AUTHORS.get(key))
 
 
-def _factor_row(factor: Factor) -> tuple[str | float | None, ...]:
+def _factor(factor: Factor) -> tuple[Value, ...]:
     own = (steps.counted_text() for steps in (factor.steps_to_learn, factor.steps_to_complete))
-    ratio, best = factor_text(factor.ratio, ".1f", censored=factor.censored), factor.best_steps_to_learn.counted_text()
-    return (factor.world, *own, TITLES[factor.best], best, ratio, factor.paper_ratio)
+    best = factor.best_steps_to_learn.counted_text()
+    return factor.world, *own, LOOKS[factor.best][0], best, factor.text, factor.paper_ratio
 
 
-def _lines(steps: dict[tuple[str, str], Steps], factors: Sequence[Factor]) -> list[str]:
+def _text(figure: Figure | None) -> str:
+    if figure is None:
+        return NONE
+    spread = "" if figure[1] is None else f" ± {figure[1]:g}"
+    return f"{figure[0]:g}{spread}" + (f" ({figure[2]}/{figure[3]})" if len(figure) == 4 else "")
+
+
+def _lines(grid: Grid, factors: Sequence[Factor]) -> list[str]:
     lines = [f"steps to learn, mean ± standard deviation (learned of runs); {LEGEND}"]
-    for (world, agent), one in steps.items():
+    for (world, agent), steps in grid.items():
         lines += [world] if agent == "oracle" else []
-        beside = f"  paper {PAPER[world, agent]}" if (world, agent) in PAPER else ""
-        lines.append(f"  {TITLES[agent]:<17}{_own(agent, one):<46}{beside}".rstrip())
-    for factor in factors:
-        text = factor_text(factor.ratio, ".1f", censored=factor.censored)
-        lines.append(f"{factor.world}: best CSCG ({TITLES[factor.best]}) over cogmap {text}")
-    return lines
+        beside = f"  paper {_text(PAPER[world, agent])}" if (world, agent) in PAPER else ""
+        lines.append(f"  {LOOKS[agent][0]:<17}{_own(agent, steps):<46}{beside}".rstrip())
+    return lines + [f"{one.world}: best CSCG ({LOOKS[one.best][0]}) over cogmap {one.text}" for one in factors]
 
 
-def _published(world: str, agent: str) -> dict[str, float | None]:
-    paper, authors = PAPER.get((world, agent)), AUTHORS.get((world, agent))
-    return {
-        "paper_mean": paper and paper.mean,
-        "paper_std": paper and paper.std,
-        "authors_mean": authors and authors.mean,
-        "authors_std": authors and authors.std,
-        "authors_learned": authors and authors.got,
-        "authors_runs": authors and authors.of,
-    }
-
-
-def _paper_mean(world: str, agent: str) -> float | None:
-    return PAPER[world, agent].mean if (world, agent) in PAPER else None
-
-
-def _paper_factor(world: str) -> float | None:
-    if world not in _PAPER:
-        return None
-    return round(min(PAPER[world, model].mean for model in CSCG) / PAPER[world, "cogmap"].mean, 1)
-
-
-STUDY = Exploration()
+def _published(key: tuple[str, str]) -> dict[str, float | None]:
+    paper, authors = ((*figures.get(key, ()), *[None] * 4) for figures in (PAPER, AUTHORS))
+    names = ("authors_mean", "authors_std", "authors_learned", "authors_runs")
+    return {"paper_mean": paper[0], "paper_std": paper[1], **dict(zip(names, authors, strict=False))}

@@ -5,31 +5,29 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
-from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...agent import Settings
 from ...views import BLUE, GREEN, GREY, ORANGE, VERMILION, theme_of
 from ...worlds import MAZES, Label, Maze
-from .. import NavigateRun, navigate
-from ..navigating import WEIGHT as GOAL_WEIGHT
-from .figures import panels, plot_bars
+from .. import WEIGHT, NavigateRun, navigate
+from .figures import Axes, Figure, panels, plot_bars
 from .intervals import Interval, bootstrap
 from .study import Findings, Study
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+ALIASED = {False: "sights differ", True: "sights repeat"}  # mazes without and with rooms that look alike
+HOW = {True: "with a map, moved without a word", False: "in an unknown maze"}
+DISTANCES = {**{str(length): range(length, length + 1) for length in range(5)}, "5, 6": range(5, 7)}
+DISTANCES["7 or more"] = range(7, 10**9)  # lengths of the shortest path that are shown together
+MARKS = {
+    "shortest": ("_", "shortest path", 14.0, GREY),
+    "to_stand": ("o", "agent first there", 6.0, GREEN),
+    "frontier": ("D", "nearest-frontier search first there", 6.0, (1.0, 1.0, 1.0)),
+}
 
-DIFFER, REPEAT = "sights differ", "sights repeat"
-"""Mazes without and with rooms that look alike."""
-DISTANCES: tuple[tuple[float, float], ...] = ((0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (5, 6), (7, inf))
-"""Lengths of the shortest path that are shown together, ends included."""
-
-Task = tuple[str, bool, int]
-"""World, whether its map is known, seed."""
+Task = tuple[str, bool, int]  # world, whether its map is known, seed
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,13 +59,14 @@ class Summary:
     ratio: Interval | None  # total of `steps` over the total of `shortest`; None where that is 0
 
     @classmethod
-    def of(cls, rows: Sequence[GoalRun]) -> Summary:
-        """What these runs come to."""
-        there = [row.run for row in rows if row.run.reached]
+    def of(cls, rows: Sequence[GoalRun], **those: object) -> Summary:
+        """What the rows come to whose fields are as in `those`."""
+        every = [row.run for row in rows if all(getattr(row, name) == value for name, value in those.items())]
+        there = [run for run in every if run.reached]
         steps, shortest = [run.steps or 0 for run in there], [run.shortest or 0 for run in there]
         return cls(
-            runs=len(rows),
-            failed=len(rows) - len(there),
+            runs=len(every),
+            failed=len(every) - len(there),
             steps=bootstrap(steps),
             to_stand=bootstrap([run.steps_to_stand or 0 for run in there]),
             shortest=bootstrap(shortest),
@@ -77,14 +76,13 @@ class Summary:
 
 
 class Goals(Study[Task, GoalRun]):
-    """Agents are sent to goals in the eight mazes, each once with a map and once without."""
+    """Steps to a goal
+
+    How many moves to a preferred sight, against the exact shortest path: with a map, after a move without a
+    word, and in an unknown maze, against nearest-frontier search?
+    """
 
     name = "goals"
-    title = "Steps to a goal"
-    question = (
-        "How many moves to a preferred sight, against the exact shortest path: with a map, after a move without a"
-        " word, and in an unknown maze, against nearest-frontier search?"
-    )
     notes = (
         "A goal is reached when the agent chooses to stay on it; passing through does not count.",
         "The authors' agent is told that it was moved, its belief is reset; ours is not told.",
@@ -98,30 +96,21 @@ class Goals(Study[Task, GoalRun]):
         """One way to a goal."""
         world, known, seed = task
         maze = MAZES[world]
-        goal = draw_goal(maze, seed)
-        run = navigate(maze, goal=goal, known=known, settings=settings, seed=seed)
-        return GoalRun(world, len(set(maze.sights.values())) < len(maze.rooms), goal, known, run)
+        goal, aliased = draw_goal(maze, seed), len(set(maze.sights.values())) < len(maze.rooms)
+        return GoalRun(world, aliased, goal, known, navigate(maze, seed, goal=goal, known=known, settings=settings))
 
     def summarise(self, rows: Sequence[GoalRun]) -> Findings:
         """Means by maze and by distance."""
-        groups = {(world, known): _select(rows, known, world=world) for world in MAZES for known in (True, False)}
-        lost = [row for row in rows if not row.run.reached]
-        how = {True: "with a map", False: "without a map"}
-        return Findings(
-            json={
-                "weight": GOAL_WEIGHT,
-                "runs": [row.to_dict() for row in rows],
-                "summary": [
-                    {"world": world, "known": known, **asdict(Summary.of(part))}
-                    for (world, known), part in groups.items()
-                ],
-            },
-            lines=_lines(rows, lost),
-            figures={"goals_by_distance": partial(_by_distance, rows), "goals_by_world": partial(_by_world, groups)},
-            failed=[
-                f"{row.world}, {how[row.known]}, goal {row.goal}, seed {row.run.seed}: not reached" for row in lost
-            ],
-        )
+        summary = {(world, known): Summary.of(rows, world=world, known=known) for world in MAZES for known in HOW}
+        by_world = [{"world": world, "known": known, **asdict(part)} for (world, known), part in summary.items()]
+        lines, failed = _lines(rows, summary), list[str]()
+        for row in rows:
+            if not row.run.reached:
+                end, how = f"goal {row.goal}, seed {row.run.seed}", "with a map" if row.known else "without a map"
+                lines.append(f"failed: {row.world}, {'with a map' if row.known else 'unknown'}, {end}")
+                failed.append(f"{row.world}, {how}, {end}: not reached")
+        figures = {"goals_by_distance": partial(_by_distance, rows), "goals_by_world": partial(_by_world, summary)}
+        return Findings({"weight": WEIGHT, "runs": rows, "summary": by_world}, lines, figures, failed=failed)
 
 
 def draw_goal(maze: Maze, seed: int) -> Label:
@@ -131,117 +120,79 @@ def draw_goal(maze: Maze, seed: int) -> Label:
     return labels[int(np.random.default_rng(stream).integers(len(labels)))]
 
 
-def _select(
-    rows: Sequence[GoalRun], known: bool, *, world: str | None = None, aliased: bool | None = None
-) -> list[GoalRun]:
-    return [row for row in rows if row.known == known and world in (None, row.world) and aliased in (None, row.aliased)]
-
-
-def _lines(rows: Sequence[GoalRun], lost: Sequence[GoalRun]) -> list[str]:
-    """Steps in every maze, with 95 % intervals; failed runs are named by their seeds."""
+def _lines(rows: Sequence[GoalRun], summary: dict[tuple[str, bool], Summary]) -> list[str]:
+    """Steps in every maze, with 95 % intervals."""
     lines: list[str] = []
-    for known in (True, False):
-        title = "with a map, moved without a word" if known else "in an unknown maze"
-        heads = ("reached", "first there", "stays", *(() if known else ("nearest frontier",)), "shortest", "ratio")
-        lines += [f"{title}: steps, mean [95 %]", _columns("", heads)]
-        groups = {world: _select(rows, known, world=world) for world in MAZES}
-        groups |= {DIFFER: _select(rows, known, aliased=False), REPEAT: _select(rows, known, aliased=True)}
-        lines += [_columns(name, _cells(Summary.of(part), known)) for name, part in groups.items()]
-    return lines + [
-        f"failed: {row.world}, {'with a map' if row.known else 'unknown'}, goal {row.goal}, seed {row.run.seed}"
-        for row in lost
-    ]
+    for known, title in HOW.items():
+        heads = {"to_stand": "first there", "steps": "stays", "frontier": "nearest frontier", "shortest": "shortest"}
+        shown = {what: head for what, head in {**heads, "ratio": "ratio"}.items() if not known or what != "frontier"}
+        groups = {world: summary[world, known] for world in MAZES}
+        groups |= {name: Summary.of(rows, known=known, aliased=aliased) for aliased, name in ALIASED.items()}
+        cells = {"": ["reached", *shown.values()]}
+        for name, part in groups.items():
+            means = [_text(getattr(part, what)) for what in shown]
+            cells[name] = [f"{part.runs - part.failed}/{part.runs}", *means]
+        lines.append(f"{title}: steps, mean [95 %]")
+        lines += [f"  {name:<14}{x:>9}" + "".join(f"{y:>21}" for y in rest) for name, (x, *rest) in cells.items()]
+    return lines
 
 
-def _cells(summary: Summary, known: bool) -> list[str]:
-    means = [summary.to_stand, summary.steps, *(() if known else (summary.frontier,)), summary.shortest, summary.ratio]
-    texts = ["-" if mean is None else f"{mean.value:.2f} [{mean.low:.2f}, {mean.high:.2f}]" for mean in means]
-    return [f"{summary.runs - summary.failed}/{summary.runs}", *texts]
-
-
-def _columns(name: str, cells: Sequence[str]) -> str:
-    return f"  {name:<14}{cells[0]:>9}" + "".join(f"{cell:>21}" for cell in cells[1:])
+def _text(mean: Interval | None) -> str:
+    return "-" if mean is None else f"{mean.value:.2f} [{mean.low:.2f}, {mean.high:.2f}]"
 
 
 def _by_distance(rows: Sequence[GoalRun]) -> Figure:
     title = "Steps to the goal, by the length of the shortest path (bars: mean, 95 % bootstrap)"
-    figure, axes = panels(title, 2, (11.0, 4.6))
-    for ax, known in zip(axes, (True, False), strict=True):
-        for shift, aliased, colour in ((-0.2, False, BLUE), (0.2, True, ORANGE)):
-            part = _select(rows, known, aliased=aliased)
-            groups = [Summary.of([row for row in part if _within(row, distance)]) for distance in DISTANCES]
-            at = [i + shift for i in range(len(groups))]
-            steps, name = [group.steps for group in groups], REPEAT if aliased else DIFFER
-            plot_bars(ax, at, steps, width=0.38, color=colour, label=name)
-            _marks(ax, at, [group.shortest for group in groups], "_", "shortest path", named=not aliased)
-            if not known:
-                stood, frontier = [group.to_stand for group in groups], [group.frontier for group in groups]
-                _marks(ax, at, stood, "o", "agent first there", named=not aliased)
-                _marks(ax, at, frontier, "D", "nearest-frontier search first there", named=not aliased)
-            _failures(ax, at, groups)
-        ax.set_xticks(range(len(DISTANCES)), [_distance(*distance) for distance in DISTANCES])
+    figure, axes = panels(title, (1, 2), (11.0, 4.6))
+    near = [[row for row in rows if row.run.shortest in distance] for distance in DISTANCES.values()]
+    for ax, known in zip(axes, HOW, strict=True):
+        marks = ("shortest",) if known else ("shortest", "to_stand", "frontier")
+        for shift, (aliased, name), colour in zip((-0.2, 0.2), ALIASED.items(), (BLUE, ORANGE), strict=True):
+            groups = [Summary.of(part, known=known, aliased=aliased) for part in near]
+            _draw_bars(ax, shift, groups, "steps", width=0.38, color=colour, label=name)
+            _draw_marks(ax, shift, groups, marks, named=not aliased)
+        ax.set_xticks(range(len(near)), list(DISTANCES))
         ax.set_xlabel("steps of the shortest path")
         _finish(ax, known)
     return figure
 
 
-def _by_world(by_world: dict[tuple[str, bool], list[GoalRun]]) -> Figure:
-    figure, axes = panels("Steps to the goal, by maze (bars: mean, 95 % bootstrap)", 2, (11.0, 4.6))
-    for ax, known in zip(axes, (True, False), strict=True):
-        groups = [Summary.of(by_world[world, known]) for world in MAZES]
-        series = [("agent stays", BLUE, [group.steps for group in groups])]
-        if not known:
-            series.insert(0, ("agent first there", GREEN, [group.to_stand for group in groups]))
-            series.append(("nearest-frontier search first there", GREY, [group.frontier for group in groups]))
-        width = 0.8 / max(len(series), 2)
-        for number, (name, colour, bars) in enumerate(series):
-            at = [i + (number - (len(series) - 1) / 2) * width for i in range(len(groups))]
-            plot_bars(ax, at, bars, width=width * 0.95, color=colour, label=name)
-        _marks(ax, range(len(groups)), [group.shortest for group in groups], "_", "shortest path")
-        _failures(ax, range(len(groups)), groups)
+def _by_world(summary: dict[tuple[str, bool], Summary]) -> Figure:
+    figure, axes = panels("Steps to the goal, by maze (bars: mean, 95 % bootstrap)", (1, 2), (11.0, 4.6))
+    stays, stands = ("steps", "agent stays", BLUE), ("to_stand", MARKS["to_stand"][1], GREEN)
+    series = {True: [stays], False: [stands, stays, ("frontier", MARKS["frontier"][1], GREY)]}
+    for ax, known in zip(axes, HOW, strict=True):
+        groups, width = [summary[world, known] for world in MAZES], 0.8 / max(len(series[known]), 2)
+        for number, (what, name, colour) in enumerate(series[known]):
+            shift = (number - (len(series[known]) - 1) / 2) * width
+            _draw_bars(ax, shift, groups, what, width=width * 0.95, color=colour, label=name)
+        _draw_marks(ax, 0.0, groups, ["shortest"])
         ax.set_xticks(range(len(groups)), list(MAZES), rotation=30, ha="right")
         _finish(ax, known)
     return figure
 
 
-def _within(row: GoalRun, distance: tuple[float, float]) -> bool:
-    return row.run.shortest is not None and distance[0] <= row.run.shortest <= distance[1]
+def _draw_bars(ax: Axes, shift: float, groups: Sequence[Summary], what: str, **style: Any) -> None:
+    plot_bars(ax, [i + shift for i in range(len(groups))], [getattr(group, what) for group in groups], **style)
 
 
-def _marks(
-    ax: Axes, at: Sequence[float], means: Sequence[Interval | None], marker: str, name: str, *, named: bool = True
-) -> None:
-    shown = [(x, mean.value) for x, mean in zip(at, means, strict=True) if mean is not None]
-    ink, paper = theme_of(ax).ink, theme_of(ax).paper
-    look: dict[str, Any] = {
-        "markersize": 6,
-        "markerfacecolor": GREEN if marker == "o" else paper,
-        "markeredgewidth": 0.8,
-    }
-    if marker == "_":
-        look = {"markersize": 14, "markeredgewidth": 2}
-    xs, ys = [x for x, _ in shown], [y for _, y in shown]
-    label = name if named else None
-    ax.plot(xs, ys, linestyle="none", marker=marker, markeredgecolor=ink, label=label, zorder=4, **look)
-
-
-def _failures(ax: Axes, at: Sequence[float], groups: Sequence[Summary]) -> None:
-    look: dict[str, Any] = {"textcoords": "offset points", "color": VERMILION, "fontsize": 7, "rotation": 90}
-    for x, group in zip(at, groups, strict=True):
+def _draw_marks(ax: Axes, shift: float, groups: Sequence[Summary], marks: Sequence[str], *, named: bool = True) -> None:
+    """Marks over the bars, and how many failed."""
+    for what in marks:
+        marker, name, size, colour = MARKS[what]
+        values = [value.value if (value := getattr(group, what)) else np.nan for group in groups]
+        look: dict[str, Any] = {"marker": marker, "markersize": size, "markerfacecolor": colour, "linestyle": "none"}
+        look |= {"markeredgecolor": theme_of(ax).ink, "markeredgewidth": size / 7.0, "label": name if named else None}
+        ax.plot([i + shift for i in range(len(groups))], values, zorder=4, **look)
+    text: dict[str, Any] = {"textcoords": "offset points", "color": VERMILION, "fontsize": 7, "rotation": 90}
+    for i, group in enumerate(groups):
         if group.failed:
             top = 0.0 if group.steps is None else group.steps.high
-            ax.annotate(f"{group.failed} of {group.runs} failed", (x, top), (0, 4), ha="center", **look)
-
-
-def _distance(least: float, most: float) -> str:
-    return f"{least:g}" if least == most else f"{least:g} or more" if most == inf else f"{least:g}, {most:g}"
+            ax.annotate(f"{group.failed} of {group.runs} failed", (i + shift, top), (0, 4), ha="center", **text)
 
 
 def _finish(ax: Axes, known: bool) -> None:
-    ax.set_title("with a map, moved without a word" if known else "in an unknown maze")
+    ax.set_title(HOW[known])
     ax.set_ylabel("steps until the agent stays on the goal" if known else "steps")
     ax.set_ylim(bottom=0.0)
     ax.legend(fontsize=8, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3)
-
-
-STUDY = Goals()

@@ -8,24 +8,24 @@ from functools import partial
 
 from ...worlds import MAZES
 from .. import Row
-from .grid import COMPLETE, COUNTED, LEGEND, ORACLE, STARTS, Explorations, steps_figure
+from .grid import COMPLETE, COUNTED, LEGEND, Explorations, steps_figure
 from .study import Findings
-from .tables import Table
+from .tables import Table, Value
 
 FIGURE = "Steps until every room was visited and every transition learned (mean, 95 % bootstrap interval)"
 
 
 @dataclass(frozen=True)
 class Growth(Explorations):
-    """Agents that grow their map in each way explore the eight mazes."""
+    """Three ways to grow a map
+
+    How many moves until every room was visited and every transition learned, by how the map grows? static
+    knows the number of places from the start, observed adds a place once it was entered, predicted (ours)
+    once a door to it was seen. After the paper's figure on internal map layouts. Run i has the seed S + i,
+    which draws start and agent; every model sets out from the same starts.
+    """
 
     name = "growth"
-    title = "Three ways to grow a map"
-    question = (
-        "How many moves until every room was visited and every transition learned, by how the map grows? static "
-        "knows the number of places from the start, observed adds a place once it was entered, predicted (ours) "
-        f"once a door to it was seen. After the paper's figure on internal map layouts. {STARTS}"
-    )
     notes = (
         COUNTED,
         "The paper's figure has no numbers.",
@@ -33,7 +33,7 @@ class Growth(Explorations):
         "place is reached by two doors and imagining brings nothing; in the donut, one ring, all walk the "
         "shortest way.",
     )
-    what = COMPLETE
+    what, by = COMPLETE, "growth"
 
     worlds: tuple[str, ...] = tuple(MAZES)
     models: tuple[str, ...] = ("cogmap",)
@@ -41,32 +41,19 @@ class Growth(Explorations):
 
     def summarise(self, rows: Sequence[Row]) -> Findings:
         """Means by maze and way to grow."""
-        series = {way: [self.steps(rows, world, growth=way) for world in self.worlds] for way in self.growths}
-        by_world = {world: [series[way][place] for way in self.growths] for place, world in enumerate(self.worlds)}
+        drawn = self.grid(rows)
+        grid = {key: steps for key, steps in drawn.items() if key[1] != "oracle"}
         lines = [f"steps to complete, mean ± standard deviation (complete of runs); {LEGEND}"]
-        for world, every in by_world.items():
-            lines += [world, *(f"  {way:<11}{one.text()}" for way, one in zip(self.growths, every, strict=True))]
-        summary = [
-            {"world": world, "growth": way, **one.to_dict()}
-            for world, every in by_world.items()
-            for way, one in zip(self.growths, every, strict=True)
-        ]
-        means = Table(
-            "growth_table",
-            ("maze", *self.growths),
-            [(world, *(one.text() for one in every)) for world, every in by_world.items()],
+        table: list[dict[str, Value]] = []
+        for world in self.worlds:
+            texts = {way: grid[world, way].text() for way in self.growths}
+            lines += [world, *(f"  {way:<11}{text}" for way, text in texts.items())]
+            table.append({"maze": world, **texts})
+        caption = (
             "Steps until every room was visited and every transition learned; mean ± standard deviation (complete of "
-            f"runs) [95 % interval]. {LEGEND}.",
+            f"runs) [95 % interval]. {LEGEND}."
         )
-        oracle = [self.steps(rows, world, growth=self.growths[0], what=ORACLE) for world in self.worlds]
-        drawn = {"oracle": oracle, **series}
+        figures = {"growth_steps": partial(steps_figure, FIGURE, drawn, self.cap)}
         return Findings(
-            json=self.json(rows, summary),
-            lines=lines,
-            figures={"growth_steps": partial(steps_figure, FIGURE, self.worlds, drawn, cap=self.cap)},
-            tables=self.tables(rows, summary, [means], by="growth"),
-            failed=self.failed(rows),
+            lines=lines, figures=figures, **self.found(rows, grid, Table.of("growth_table", table, caption))
         )
-
-
-STUDY = Growth()

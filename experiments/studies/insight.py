@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from scipy import stats
 
@@ -14,38 +14,14 @@ from ...baselines import HabitAgent
 from ...views import theme_of
 from ...worlds import GRID, MazeEnv, Position
 from .. import mean, number
-from .figures import panels, plot_bars, shares_axis
+from . import tolman_maze as maze
+from .figures import Figure, panels, plot_bars, shares_axis
 from .intervals import Share, wilson
-from .study import Findings, Study, at_least, failed_seeds
-from .tolman_maze import (
-    COLOURS,
-    FORK,
-    MAZE,
-    ROUTES,
-    RUNS,
-    SIGHT,
-    START,
-    STEPS,
-    B,
-    Choice,
-    TolmanRun,
-    agent_run,
-    choice_after,
-    new_agent,
-    new_world,
-    plot_tolman_flow,
-    set_closed,
-    walk,
-)
-from .tolman_maze import SETTINGS as MAZE_SETTINGS
+from .study import Findings, Study, failed_seeds
+from .tolman_maze import ROUTES, Choice, TolmanRun, choice_after
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-MOST = 60
-"""Runs with B closed after which nobody is waited for any longer."""
-WANDER = 5000
-"""Steps that the control walks at random before its training, so that it knows what every way pays."""
+MOST = 60  # runs with B closed after which nobody is waited for any longer
+WANDER = 5000  # steps that the control walks at random before its training, so that it knows what every way pays
 RATS = wilson(9, 10)
 """Rats that tried route 3 first: Tolman and Honzik, "Insight" in rats, Univ. Calif. Publ. Psychol. 4:215, 1930, after
 secondary sources."""
@@ -66,107 +42,78 @@ class InsightRow:
     def of(cls, seed: int, training: Sequence[TolmanRun], probe: Sequence[TolmanRun]) -> InsightRow:
         """What these runs come to."""
         last = probe[-1].reached_at
-        steps = None if last is None else STEPS * (len(probe) - 1) + last
+        steps = None if last is None else maze.STEPS * (len(probe) - 1) + last
         return cls(seed, _routes(training), choice_after(probe), steps, tuple(training), tuple(probe))
 
 
 @dataclass(frozen=True)
 class Insight(Study[int, tuple[InsightRow, InsightRow]]):
-    """Each agent runs in the open maze, B is closed, and it is seen which way it tries once it has met the block.
+    """Insight
 
-    As many controls, which learn by reward and have no map, do the same.
-
-    Attributes:
-        runs: without obstacle.
+    B is closed straight after training in the open maze. Once the block was met, is route 3 tried before
+    route 2, which leads to the same block? After Tolman and Honzik (1930), with controls that learn by
+    reward and have no map.
     """
 
     name = "insight"
-    title = "Insight"
-    question = (
-        "B is closed straight after training in the open maze. Once the block was met, is route 3 tried before "
-        "route 2, which leads to the same block? After Tolman and Honzik (1930), with controls that learn by "
-        "reward and have no map."
-    )
     notes = ("The figures of the rats are from a secondary source.",)
     agents = 40
-    settings = replace(MAZE_SETTINGS, forgetting=0.0)  # what was learned is as sure at the test as it was on the way
+    settings = replace(maze.SETTINGS, forgetting=0.0)  # what was learned is as sure at the test as it was on the way
 
-    runs: int = RUNS
-
-    def __post_init__(self) -> None:
-        at_least(self.name, 1, runs=self.runs)
+    runs: int = maze.RUNS  # without obstacle
 
     def run(self, task: int, settings: Settings) -> tuple[InsightRow, InsightRow]:
-        """The agent with this seed, and its control."""
-        agent = new_agent(settings, task)
-        row = _trained(task, self.runs, lambda world: agent_run(agent, world))
-        return row, _control(self.runs, task)
+        """An agent, and a control that learns by reward and has no map."""
+        agent, control = maze.new_agent(settings, task), _control(task)
+        return self._trained(task, lambda world: maze.agent_run(agent, world)), self._trained(task, control)
+
+    def _trained(self, seed: int, one_run: Callable[[MazeEnv], TolmanRun]) -> InsightRow:
+        world = maze.new_world()
+        training = [one_run(world) for _ in range(self.runs)]
+        maze.set_closed(world, room=maze.B)
+        probe: list[TolmanRun] = []
+        while len(probe) < MOST and not (choice_after(probe) and probe[-1].reached_at is not None):
+            probe.append(one_run(world))
+        return InsightRow.of(seed, training, probe)
 
     def summarise(self, rows: Sequence[tuple[InsightRow, InsightRow]]) -> Findings:
         """Who tried route 3 before route 2: agents, controls and rats."""
         groups = {"agents": [pair[0] for pair in rows], "controls": [pair[1] for pair in rows]}
         parts = {name: _summary(group) for name, group in groups.items()}
-        first = {name: part["route_3_first"] for name, part in parts.items()}
+        first: dict[str, Share] = {name: part["route_3_first"] for name, part in parts.items()}
         test: Any = stats.fisher_exact([[s.count, s.of - s.count] for s in first.values()], alternative="greater")
         p_value = float(test.pvalue)  # one-sided: the agents try route 3 first no more often than the controls
         protocol = {
-            "start": START,
-            "closed": B,
-            "training_runs": RUNS,
-            "steps_a_run": STEPS,
+            "start": maze.START,
+            "closed": maze.B,
+            "training_runs": self.runs,
+            "steps_a_run": maze.STEPS,
             "control": f"tabular Q-learning, {WANDER} random steps before its training",
         }
-        rats = {"route_3_first": RATS}
-        return Findings(
-            json={
-                "world": MAZE.name,
-                "protocol": protocol,
-                "rows": groups["agents"],
-                "controls": groups["controls"],
-                "summary": {**parts, "rats": rats, "p_value": p_value},
-            },
-            lines=[
-                *_lines("agents", parts["agents"]),
-                *_lines("controls without a map", parts["controls"]),
-                f"rats (Tolman and Honzik 1930): {_text(RATS)}",
-                f"agents over controls, Fisher's exact test: p = {p_value:.2g}",
-            ],
-            figures={"insight_choice": partial(_figure, groups, first)},
-            failed=[
-                line
-                for name, group in groups.items()
-                for line in (
-                    *failed_seeds(f"{name} never met the block", group, lambda row: row.choice is None),
-                    *failed_seeds(f"{name} did not reach the goal again", group, lambda row: row.steps_to_goal is None),
-                )
-            ],
-        )
+        summary = {**parts, "rats": {"route_3_first": RATS}, "p_value": p_value}
+        json = {"world": maze.MAZE.name, "protocol": protocol, "rows": groups["agents"], "controls": groups["controls"]}
+        lines = [*_lines("agents", parts["agents"]), *_lines("controls without a map", parts["controls"])]
+        lines.append(f"rats (Tolman and Honzik 1930): {_text(RATS)}")
+        lines.append(f"agents over controls, Fisher's exact test: p = {p_value:.2g}")
+        failed: list[str] = []
+        for name, group in groups.items():
+            failed += failed_seeds(f"{name} never met the block", group, lambda row: row.choice is None)
+            failed += failed_seeds(f"{name} did not reach the goal again", group, lambda row: row.steps_to_goal is None)
+        figures = {"insight_choice": partial(_figure, groups, first)}
+        return Findings({**json, "summary": summary}, lines, figures, failed=failed)
 
 
-def _control(runs: int, seed: int) -> InsightRow:
-    habit = HabitAgent(GRID, goal=SIGHT, explore=1.0, seed=seed)
-    walk(habit, new_world(), steps=WANDER)
-    habit.explore = 0.1
+def _control(seed: int) -> Callable[[MazeEnv], TolmanRun]:
+    habit = HabitAgent(GRID, goal=maze.SIGHT, explore=1.0, seed=seed)
+    maze.walk(habit, maze.new_world(), steps=WANDER)
 
     def one_run(world: MazeEnv) -> TolmanRun:
         """From the start; with B closed it does what it is used to."""
-        if world.closed_rooms:
-            habit.explore = 0.0
+        habit.explore = 0.0 if world.closed_rooms else 0.1
         habit.restart()
-        path, reached_at = walk(habit, world)
-        return TolmanRun.of(path, reached_at, closed=next(iter(world.closed_rooms), None))
+        return TolmanRun.of(*maze.walk(habit, world), world)
 
-    return _trained(seed, runs, one_run)
-
-
-def _trained(seed: int, runs: int, one_run: Callable[[MazeEnv], TolmanRun]) -> InsightRow:
-    world = new_world()
-    training = [one_run(world) for _ in range(runs)]
-    set_closed(world, room=B)
-    probe: list[TolmanRun] = []
-    while len(probe) < MOST and not (choice_after(probe) and probe[-1].reached_at is not None):
-        probe.append(one_run(world))
-    return InsightRow.of(seed, training, probe)
+    return one_run
 
 
 def _routes(runs: Sequence[TolmanRun]) -> dict[int, int]:
@@ -210,34 +157,26 @@ def _text(share: Share) -> str:
 
 def _figure(groups: dict[str, list[InsightRow]], first: dict[str, Share]) -> Figure:
     title = "B closed after training in the open maze"
-    figure, axes = panels(title, 3, (12.0, 5.2), width_ratios=[1.3, 1.0, 1.0])
-    theme, names = theme_of(axes[0]), ("agents", "habit alone\n(Q-learning)", "rats (Tolman and\nHonzik 1930)")
-    rats = {"color": theme.paper, "edgecolor": theme.shade(0.7), "hatch": "///"}
-    for place, (share, style) in enumerate(zip((*first.values(), RATS), ({"color": COLOURS[3]},) * 2 + (rats,))):
-        plot_bars(axes[0], [place], [share], texts=[f"{share.count} of {share.of}"], width=0.6, **style)
-    axes[0].set_xticks(range(3), names)
-    shares_axis(axes[0], "tried route 3 before route 2", 1.12)
-    axes[0].set_title("95 % intervals (Wilson)", fontsize=11)
-    for ax, (name, rows) in zip(axes[1:], groups.items(), strict=True):
-        plot_tolman_flow(ax, [path for row in rows for path in _after(row)], closed=B)
+    figure, (ax, *flows) = panels(title, (1, 3), (12.0, 5.2), width_ratios=[1.3, 1.0, 1.0])
+    shares, theme = [*first.values(), RATS], theme_of(ax)
+    look = {"color": [maze.COLOURS[3]] * 2 + [theme.paper], "edgecolor": theme.shade(0.7), "hatch": ["", "", "///"]}
+    plot_bars(ax, range(3), shares, texts=[f"{share.count} of {share.of}" for share in shares], width=0.6, **look)
+    ax.set_xticks(range(3), ["agents", "habit alone\n(Q-learning)", "rats (Tolman and\nHonzik 1930)"])
+    ax.set_title("95 % intervals (Wilson)", fontsize=11)
+    shares_axis(ax, "tried route 3 before route 2", high=1.12)
+    for ax, (name, rows) in zip(flows, groups.items(), strict=True):
+        maze.plot_tolman(ax, [path for row in rows for path in _after(row)], closed=maze.B)
         ax.set_title(f"{name}, from the block to the choice\nand to the end of that run", fontsize=11)
     return figure
 
 
 def _after(row: InsightRow) -> list[Sequence[Position]]:
     """The paths from the first sight of the block on, up to the run in which something was chosen."""
-    met = next((number for number, run in enumerate(row.probe) if run.met_at is not None), None)
-    if row.choice is None or met is None:
-        return []
-    first = row.probe[met]
-    paths: list[Sequence[Position]] = [first.path[first.path.index(FORK) :]]
-    steps = len(first.path) - (first.met_at or 0)
-    for run in row.probe[met + 1 :]:
-        if steps >= row.choice.steps:
-            break
-        paths.append(run.path)
-        steps += len(run.path)
+    paths: list[Sequence[Position]] = []
+    steps = 0
+    for run in row.probe if row.choice is not None else ():
+        since = run.met_at if not paths else 0
+        if since is not None and (not paths or steps < row.choice.steps):
+            paths.append(run.path[since:])
+            steps += len(paths[-1])
     return paths
-
-
-STUDY = Insight()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,38 +16,23 @@ RESAMPLES = 2000
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """A mean, or a ratio of totals, and its bootstrap interval.
-
-    Attributes:
-        value: of the runs as they were.
-        low: end of the interval.
-        high: the other end.
-        count: runs that it is from.
-    """
+    """A mean, or a ratio of totals, and its bootstrap interval."""
 
     value: float
-    low: float
-    high: float
-    count: int
+    low: float  # end of the interval
+    high: float  # the other end
+    count: int  # runs that it is from
 
 
 @dataclass(frozen=True, slots=True)
 class Share:
-    """A count out of a number, and Wilson's interval (1927) of its share.
-
-    Attributes:
-        count: how many.
-        of: out of how many.
-        low: end of the interval of the share.
-        high: the other end.
-        share: from 0 to 1; 0 out of none.
-    """
+    """A count out of a number, and Wilson's interval (1927) of its share."""
 
     count: int
     of: int
-    low: float
-    high: float
-    share: float
+    low: float  # end of the interval
+    high: float  # the other end
+    share: float  # from 0 to 1; 0 out of none
 
     @property
     def value(self) -> float:
@@ -57,7 +41,7 @@ class Share:
 
 
 def bootstrap(values: Sequence[float], over: Sequence[float] | None = None) -> Interval | None:
-    """The mean of `values`, or their total over the total of `over`, with its percentile bootstrap interval (Efron 1979).
+    """The mean of `values`, or their total over the total of `over`, with its percentile bootstrap interval.
 
     Args:
         values: one a run.
@@ -66,15 +50,25 @@ def bootstrap(values: Sequence[float], over: Sequence[float] | None = None) -> I
     Returns:
         None of no runs, and where `over` adds up to 0.
     """
-    return _bootstrap(tuple(values), (1.0,) * len(values) if over is None else tuple(over))
+    over = [1.0] * len(values) if over is None else over
+    if not sum(over):
+        return None
+    value = float(sum(values) / sum(over))
+    if len(values) == 1:  # scipy wants two
+        return Interval(value, value, value, 1)
+    how = {"paired": True, "n_resamples": RESAMPLES, "method": "percentile", "rng": np.random.default_rng(0)}
+    with warnings.catch_warnings():  # of resamples that are left out
+        warnings.simplefilter("ignore", stats.DegenerateDataWarning)
+        drawn = stats.bootstrap((values, over), _ratio, vectorized=True, **how).bootstrap_distribution
+    low, high = np.nanquantile(drawn, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
+    return Interval(value, float(low), float(high), len(values))
 
 
 def wilson(count: int, of: int) -> Share:
     """The share of `count` out of `of`, single cases taken as independent; from 0 to 1 out of none."""
     if of == 0:
         return Share(count, of, 0.0, 1.0, 0.0)
-    ends = stats.binomtest(count, of).proportion_ci(LEVEL, method="wilson")
-    share = count / of
+    ends, share = stats.binomtest(count, of).proportion_ci(LEVEL, method="wilson"), count / of
     return Share(count, of, min(float(ends.low), share), max(float(ends.high), share), share)
 
 
@@ -83,28 +77,6 @@ def total_variation(first: Sequence[int], second: Sequence[int]) -> float:
     if not (sum(first) and sum(second)):
         return 1.0
     return sum(abs(a / sum(first) - b / sum(second)) for a, b in zip(first, second, strict=True)) / 2.0
-
-
-@lru_cache(maxsize=4096)  # tables, lines and figures ask for the same
-def _bootstrap(values: tuple[float, ...], over: tuple[float, ...]) -> Interval | None:
-    if not sum(over):
-        return None
-    value = float(sum(values) / sum(over))
-    if len(values) == 1:  # scipy wants two
-        return Interval(value, value, value, 1)
-    with warnings.catch_warnings():  # of resamples that are left out
-        warnings.simplefilter("ignore", stats.DegenerateDataWarning)
-        drawn = stats.bootstrap(
-            (values, over),
-            _ratio,
-            n_resamples=RESAMPLES,
-            paired=True,
-            vectorized=True,
-            method="percentile",
-            rng=np.random.default_rng(0),
-        )
-    low, high = np.nanquantile(drawn.bootstrap_distribution, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
-    return Interval(value, float(low), float(high), len(values))
 
 
 def _ratio(values: NDArray[np.float64], over: NDArray[np.float64], axis: int = -1) -> NDArray[np.float64]:

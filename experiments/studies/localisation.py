@@ -5,35 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...agent import Agent, Settings
 from ...views import BLUE, GREEN, SKY, VERMILION, plot_belief
 from ...worlds import MAZES, Label, MazeEnv, Position, shortest_path
-from .. import Session, Truth, default_steps, explored, mean, number, spread, std
-from .figures import errors, legend_below, panels, plot_ways
-from .imagined import ImaginedPath, imagined_paths, room_of
+from .. import Moment, Session, default_steps, explored, mean, number, run, spread, std
+from .figures import Figure, ImaginedPath, imagined_paths, legend_below, panels, plot_line, plot_ways
 from .intervals import Interval, bootstrap
-from .study import Findings, Study, failed_seeds, short
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .study import Findings, Study, failed_seeds
 
 MAZE = MAZES["t_maze_alias"]
 FOOT: Position = (3, 2)
 GOAL: Label = 0
-WEIGHT = 3.0
-"""Log preference of the goal, in nats."""
-MOST = 40
-"""Moves after which the agent has not found the goal."""
-CANDIDATE = 0.1
-"""A place that holds as much of the belief is one where the agent may be."""
-SHOWN = ("told_sights", "silent_doors")
-"""Conditions of which the first agent is shown step by step."""
+WEIGHT = 3.0  # log preference of the goal, in nats
+MOST = 40  # moves after which the agent has not found the goal
+CANDIDATE = 0.1  # a place that holds as much of the belief is one where the agent may be
+SHOWN = ("told_sights", "silent_doors")  # conditions of which the first agent is shown step by step
 MOST_ROWS = 8
-LOOKS = ((BLUE, "-", "o"), (SKY, "--", "s"), (GREEN, (0, (1, 1)), "^"), (VERMILION, "-.", "D"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +34,7 @@ class Condition:
     name: str
     told: bool  # that it was moved: P(moved) = 1 at the first observation after; if not, it has its prior alone
     doors: bool  # whether those it senses are evidence of where it is; they always show which ways are open
+    look: dict[str, Any]  # of its line
 
     @property
     def text(self) -> str:
@@ -51,11 +43,12 @@ class Condition:
 
 
 CONDITIONS = (
-    Condition("silent_doors", told=False, doors=True),
-    Condition("silent_sights", told=False, doors=False),
-    Condition("told_doors", told=True, doors=True),
-    Condition("told_sights", told=True, doors=False),  # the paper's: its model has no likelihood of doors
+    Condition("silent_doors", False, True, {"color": BLUE, "marker": "o"}),
+    Condition("silent_sights", False, False, {"color": SKY, "linestyle": "--", "marker": "s"}),
+    Condition("told_doors", True, True, {"color": GREEN, "linestyle": ":", "marker": "^"}),
+    Condition("told_sights", True, False, {"color": VERMILION, "linestyle": "-.", "marker": "D"}),
 )
+"""The last is the paper's: its model has no likelihood of doors."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,96 +103,75 @@ class LocalisationRow:
 
 
 class Localisation(Study[int, LocalisationRow]):
-    """Each agent explores the maze, is put at the foot of the T, and is watched on its way to the goal.
+    """Finding out where one is
 
-    Every condition starts from a copy of the same agent.
+    An agent that knows the aliased T maze is put at its foot, told of it or not, with or without doors as
+    evidence. How soon does it know where it is, and does it reach its goal?
     """
 
     name = "localisation"
-    title = "Finding out where one is"
-    question = (
-        "An agent that knows the aliased T maze is put at its foot, told of it or not, with or without doors as "
-        "evidence. How soon does it know where it is, and does it reach its goal?"
-    )
     notes = (
         "The paper's agent is told that it was moved and has no likelihood of doors: the condition told, sights alone.",
         "With sights alone the belief is split over rooms that look alike, as in the paper; doors tell them apart.",
     )
 
     def run(self, task: int, settings: Settings) -> LocalisationRow:
-        """The agent with this seed."""
+        """Let it explore, and put a copy of it at the foot of the T under each condition."""
         session = explored("localisation", MAZE, settings=settings, seed=task, most=default_steps(MAZE))
-        done = session.steps is not None
-        trials = tuple(_trial(session, condition) for condition in CONDITIONS) if done else ()
-        return LocalisationRow(task, session.start, session.steps, session.world.position, trials)
+        trials = () if session.steps is None else tuple(_trial(session, condition) for condition in CONDITIONS)
+        return LocalisationRow(task, session.start, session.steps, session.place, trials)
 
     def summarise(self, rows: Sequence[LocalisationRow]) -> Findings:
         """Counts and means over the agents that explored, by condition."""
         trials = {one.name: [t for row in rows for t in row.trials if t.condition == one.name] for one in CONDITIONS}
         conditions = {name: _summary(part) for name, part in trials.items()}
+        goals = [room for room in MAZE.rooms if MAZE.sights[room] == GOAL]
         summary = {
             "agents": len(rows),
             "explored": sum(row.steps_to_explore is not None for row in rows),
-            "shortest": min(
-                len(shortest_path(MAZE, FOOT, room)) - 1 for room in MAZE.rooms if MAZE.sights[room] == GOAL
-            ),
+            "shortest": min(len(shortest_path(MAZE, FOOT, room)) - 1 for room in goals),
             "conditions": conditions,
         }
-        protocol = {
-            "moved_to": FOOT,
-            "goal": GOAL,
-            "weight": WEIGHT,
-            "candidate": CANDIDATE,
-            "max_moves": MOST,
-            "conditions": {condition.name: condition.text for condition in CONDITIONS},
-        }
-        ways = {
-            f"localisation_{condition.name}": partial(_way, trials[condition.name][0], condition)
-            for condition in CONDITIONS
-            if condition.name in SHOWN and trials[condition.name]
-        }
-        return Findings(
-            json={"world": MAZE.name, "protocol": protocol, "rows": rows, "summary": summary},
-            lines=_lines(summary),
-            figures={**ways, "localisation_by_step": partial(_by_step, trials)} if ways else {},
-            failed=[
-                *failed_seeds("did not explore the maze", rows, lambda row: row.steps_to_explore is None),
-                *(
-                    line
-                    for name, part in conditions.items()
-                    for what in ("localised", "reached", "map_intact")
-                    for line in short(f"{name}: {what.replace('_', ' ')}", part[what], part["trials"])
-                ),
-            ],
-        )
+        protocol = {"moved_to": FOOT, "goal": GOAL, "weight": WEIGHT, "candidate": CANDIDATE, "max_moves": MOST}
+        protocol["conditions"] = {condition.name: condition.text for condition in CONDITIONS}
+        shown = [one for one in CONDITIONS if one.name in SHOWN and trials[one.name]]
+        ways = {f"localisation_{one.name}": partial(_way, trials[one.name][0], one.text) for one in shown}
+        failed = failed_seeds("did not explore the maze", rows, lambda row: row.steps_to_explore is None)
+        for name, part in conditions.items():
+            for what in ("localised", "reached", "map_intact"):
+                if part[what] < part["trials"]:
+                    failed.append(f"{name}: {what.replace('_', ' ')} {part[what]} of {part['trials']}")
+        json = {"world": MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
+        figures = {**ways, "localisation_by_step": partial(_by_step, trials)} if ways else {}
+        return Findings(json, _lines(summary), figures, failed=failed)
 
 
-def _trial(session: Session, condition: Condition) -> Trial:
-    settings = session.agent.settings
-    floor = settings.priors.door_floor if condition.doors else 0.5  # every door as likely open as blocked
-    moved = 1.0 if condition.told else settings.filter.displacement
-    agent = _with(session.agent, floor, moved)
+def _trial(session: Session[Agent], condition: Condition) -> Trial:
+    own = session.agent.settings
+    floor = own.priors.door_floor if condition.doors else 0.5  # every door as likely open as blocked
+    world, agent = MazeEnv(MAZE), _with(session.agent, floor, 1.0 if condition.told else own.filter.displacement)
     agent.prefer({GOAL: WEIGHT})
-    world = MazeEnv(session.world.maze)
-    world.reset(options={"start": FOOT})
     steps: list[LocalisationStep] = []
-    while True:
-        observation = world.observe()
-        action = agent.step(observation)
-        steps.append(_step(agent, world, session.start))
-        at_goal = action == agent.map.motions.stay and observation["sight"] == GOAL
-        if at_goal or len(steps) > MOST:
-            break
-        if len(steps) == 1 and condition.told:
-            agent = _with(agent, floor, settings.filter.displacement)
-        world.step(action)
+    reached = False
+
+    def note(moment: Moment) -> bool:
+        nonlocal reached
+        steps.append(_step(moment, session))
+        reached = moment.observation["sight"] == GOAL and moment.action == world.motions.names.index("stay")
+        return reached
+
+    first = run(world, agent, steps=1, options={"start": FOOT}, watch=note)
+    if condition.told:
+        agent = _with(agent, floor, own.filter.displacement)
+    if not reached:
+        run(world, agent, steps=MOST, begin=first.end, watch=note)
     return Trial(
         condition=condition.name,
         steps=tuple(steps),
-        reached=at_goal,
+        reached=reached,
         steps_to_localise=next((t for t, step in enumerate(steps) if step.certain and step.right), None),
         steps_certain_but_wrong=sum(step.certain and not step.right for step in steps),
-        map_intact=Truth(MAZE, session.start).learned(agent.map),
+        map_intact=session.truth.learned(agent.map),
         first="split" if not steps[0].certain else "right" if steps[0].right else "wrong",
         moves=len(steps) - 1,
     )
@@ -213,43 +185,45 @@ def _with(agent: Agent, door_floor: float, displacement: float) -> Agent:
     return Agent.from_state(header, arrays)
 
 
-def _step(agent: Agent, world: MazeEnv, start: Position) -> LocalisationStep:
-    belief, map_ = agent.belief, agent.map
+def _step(moment: Moment, session: Session[Agent]) -> LocalisationStep:
+    agent: Any = moment.agent
+    belief, map_, room = agent.belief, agent.map, moment.info["position"]
     q = np.array(list(belief.places.values()))
-    posterior = [
-        Held(place, room, belief.places.get(place, 0.0))
-        for place in map_.visited_places.tolist()
-        if (room := room_of(map_, place, start)) is not None
+    places = [(place, map_.position(place)) for place in map_.visited_places.tolist()]
+    held = [
+        Held(place, (session.start[0] + at[0], session.start[1] + at[1]), belief.places.get(place, 0.0))
+        for place, at in places
+        if at is not None
     ]
     return LocalisationStep(
-        room=world.position,
-        sight=world.maze.sights[world.position],
-        posterior=tuple(sorted(posterior, key=lambda held: held.room)),
+        room=room,
+        sight=MAZE.sights[room],
+        posterior=tuple(sorted(held, key=lambda one: one.room)),
         entropy=max(0.0, float(-(q * np.log(q)).sum())),
         certainty=belief.certainty,
         certain=agent.certain,
-        right=room_of(map_, belief.place, start) == world.position,
+        right=belief.place == session.truth.place(map_, room),
         candidates=int((q >= CANDIDATE).sum()),
         moved=belief.moved,
         first_action=dict(zip(map_.motions.names, agent.plan.action_probability.tolist(), strict=True)),
-        paths=imagined_paths(agent.plan, map_, start),
+        paths=imagined_paths(agent.plan, map_, session.start),
     )
 
 
 def _summary(trials: Sequence[Trial]) -> dict[str, Any]:
     """Counts and means; None where there are none."""
-    found = [trial.steps_to_localise for trial in trials if trial.steps_to_localise is not None]
+    found = [trial.steps_to_localise for trial in trials]
     return {
         "trials": len(trials),
         **{name: sum(trial.first == name for trial in trials) for name in ("split", "right", "wrong")},
-        "mean_candidates_first": mean([trial.steps[0].candidates for trial in trials]),
-        "localised": len(found),
+        "mean_candidates_first": mean(trial.steps[0].candidates for trial in trials),
+        "localised": len(trials) - found.count(None),
         "mean_steps_to_localise": mean(found),
         "std_steps_to_localise": std(found),
-        "mean_steps_certain_but_wrong": mean([trial.steps_certain_but_wrong for trial in trials]),
+        "mean_steps_certain_but_wrong": mean(trial.steps_certain_but_wrong for trial in trials),
         "reached": sum(trial.reached for trial in trials),
         "map_intact": sum(trial.map_intact for trial in trials),
-        "mean_moves": mean([trial.moves for trial in trials if trial.reached]),
+        "mean_moves": mean(trial.moves for trial in trials if trial.reached),
         **{f"{name}_by_step": by_step(trials, name) for name in ("entropy", "candidates")},
     }
 
@@ -282,51 +256,41 @@ def _lines(summary: dict[str, Any]) -> list[str]:
     return lines
 
 
-def _way(trial: Trial, condition: Condition) -> Figure:
+def _way(trial: Trial, condition: str) -> Figure:
     from matplotlib.figure import Figure
 
     steps = trial.steps[:MOST_ROWS]
+    names = {room: f"{sight}\n{room[0]}, {room[1]}" for room, sight in MAZE.sights.items()}
     figure = Figure(figsize=(11.0, 2.35 * len(steps) + 0.9), layout="constrained")
-    figure.suptitle(f"The first agent, moved to the foot of the T: {condition.text}", fontsize=13)
-    # two, so that the mazes are not cut to the bars
-    left, right = figure.subfigures(1, 2, squeeze=False, width_ratios=(1.6, 1.0))[0]
-    axes = [part.subplots(len(steps), 1, squeeze=False)[:, 0] for part in (left, right)]
-    for number_, (step, bars, maze) in enumerate(zip(steps, *axes, strict=True)):
-        belief = {_name(held.room): held.probability for held in step.posterior}
-        rooms = f"{step.candidates} room{'s' if step.candidates > 1 else ''} with {CANDIDATE:.0%} or more"
-        plot_belief(belief, true=_name(step.room), threshold=Localisation.settings.certainty, ax=bars)
-        bars.set_title(f"step {number_}: sees {step.sight}; entropy {step.entropy:.2f} nats, {rooms}", fontsize=11)
+    figure.suptitle(f"The first agent, moved to the foot of the T: {condition}", fontsize=13)
+    halves = figure.subfigures(1, 2, width_ratios=(1.6, 1.0))  # so that the mazes are not cut to the bars
+    axes = [half.subplots(len(steps), 1, squeeze=False).ravel() for half in halves]
+    for count, (step, bars, maze) in enumerate(zip(steps, *axes, strict=True)):
+        belief = {names[held.room]: held.probability for held in step.posterior}
+        rooms = f"{step.candidates} room{'s' * (step.candidates > 1)} with {CANDIDATE:.0%} or more"
+        plot_belief(belief, true=names[step.room], threshold=Localisation.settings.certainty, ax=bars)
+        bars.set_title(f"step {count}: sees {step.sight}; entropy {step.entropy:.2f} nats, {rooms}", fontsize=11)
         bars.set_ylabel("Q(s)")
         plot_ways(maze, MAZE, imagined=step.paths, way=[step.room])
-    left.supxlabel("sight and room of each place (▲: the true one)", fontsize=11)
-    right.supxlabel("imagined paths, darker: more probable (✕: the agent)", fontsize=11)
+    halves[0].supxlabel("sight and room of each place (▲: the true one)", fontsize=11)
+    halves[1].supxlabel("imagined paths, darker: more probable (✕: the agent)", fontsize=11)
     return figure
-
-
-def _name(room: Position) -> str:
-    return f"{MAZE.sights[room]}\n{room[0]}, {room[1]}"
 
 
 def _by_step(trials: dict[str, list[Trial]]) -> Figure:
     from matplotlib.ticker import MaxNLocator
 
     count = len(trials[CONDITIONS[0].name])
-    title = f"Mean over {count} agent{'s' if count > 1 else ''}, with 95 % intervals (bootstrap)"
-    figure, axes = panels(title, 2, (11.0, 4.6))
+    title = f"Mean over {count} agent{'s' * (count > 1)}, with 95 % intervals (bootstrap)"
+    figure, axes = panels(title, (1, 2), (11.0, 4.6))
     labels = {"entropy": "entropy of Q(s) (nats)", "candidates": f"rooms with {CANDIDATE:.0%} or more"}
     for ax, (name, label) in zip(axes, labels.items(), strict=True):
-        for index, (condition, (colour, line, marker)) in enumerate(zip(CONDITIONS, LOOKS, strict=True)):
+        for index, condition in enumerate(CONDITIONS):
             values = by_step(trials[condition.name], name)
             moves = [step + 0.05 * (index - 1.5) for step in range(len(values))]  # equal ones would hide one another
-            look: dict[str, Any] = {"color": colour, "linestyle": line, "marker": marker, "markersize": 5}
-            means = [value.value for value in values]
-            ax.errorbar(moves, means, errors(values), label=condition.text, capsize=2, **look)
-        ax.set_xlabel("moves since it was put at the foot of the T")
-        ax.set_ylabel(label)
+            plot_line(ax, moves, values, label=condition.text, markersize=5, **condition.look)
+        ax.set(xlabel="moves since it was put at the foot of the T", ylabel=label)
         ax.set_ylim(bottom=-0.04 * ax.get_ylim()[1])
         ax.xaxis.set_major_locator(MaxNLocator(integer=True))
     legend_below(figure, axes[0], 4)
     return figure
-
-
-STUDY = Localisation()

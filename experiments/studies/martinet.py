@@ -10,54 +10,37 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy import stats
 
 from ...agent import Agent, Settings
 from ...views import theme_of
-from ...worlds import Door, MazeEnv, Position
-from .. import count
-from .figures import panels, plot_bars, shares_axis
+from ...worlds import Door, MazeEnv
+from .. import Moment
+from . import tolman_maze as maze
+from .figures import Axes, Figure, panels, plot_bars, shares_axis
 from .intervals import Interval, bootstrap
-from .study import Findings, Study, at_least, short
-from .tolman_maze import (
-    BEFORE,
-    BRANCHES,
-    COLOURS,
-    GATES,
-    MAZE,
-    ROUTES,
-    START,
-    A,
-    B,
-    new_agent,
-    new_world,
-    set_closed,
-    walk,
-)
-from .tolman_maze import SETTINGS as MAZE_SETTINGS
+from .study import Findings, Study
+from .tolman_maze import BRANCHES, ROUTES, START
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-DAYS = 7
-"""Of training, 12 runs a day; half of the original's, since nothing changes any more after the second."""
-FREE = 9
-"""Free runs on the first day, after a forced one by each route."""
-BLOCKED = 10
-"""Runs with A closed on each day from the second, and two free runs among them."""
-PROBES = 7
-"""Runs with B closed on the last day."""
-MOST = 60
-"""Steps after which a run is given up; it ends at the goal (the original has no limit)."""
+DAYS = 7  # of training, 12 runs a day
+FREE = 9  # free runs on the first day, after a forced one by each route
+BLOCKED = 10  # runs with A closed on each day from the second, and two free runs among them
+PROBES = 7  # runs with B closed on the last day
+MOST = 60  # steps after which a run is given up; it ends at the goal (the original has no limit)
 CONDITIONS = {"free": (1, 2, 3), "A closed": (2, 3), "B closed": (2, 3)}
 """Conditions, and the routes that count in each: route 1 is left out where it is closed, as in the original."""
-EXPECTED = {"free": ((1, 2), (1, 3)), "A closed": ((2, 3),), "B closed": ((3, 2),)}
-"""Which route was taken more often than which by the animals of Martinet et al., each with p < 0.0001 (ANOVA)."""
+TITLES = {"free": "first day, nothing closed", "A closed": "A closed", "B closed": "last day, B closed"}
+EXPECTED = (("free", 1, 2), ("free", 1, 3), ("A closed", 2, 3), ("B closed", 3, 2))
+"""Under which condition which route was taken more often than which by the animals of Martinet et al., each with
+p < 0.0001 (ANOVA)."""
 ENTRANCES: dict[int, Door] = {route: (START, room) for room, route in BRANCHES.items()}
+BOUNDS = ("0.0001", "0.001", "0.01", "0.05", "1")  # usual ones, of a p
+
+Counts = dict[int, int]  # runs by route
+Shares = dict[str, dict[int, Interval | None]]  # by condition and route
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,17 +58,16 @@ class MartinetRow:
     """One agent."""
 
     seed: int
-    counts: dict[str, dict[int, int]]  # by condition, runs by route; of the free runs those of the first day alone
+    counts: dict[str, Counts]  # by condition; of the free runs those of the first day alone
     runs: tuple[Run, ...]
 
     @classmethod
     def of(cls, seed: int, runs: Sequence[Run]) -> MartinetRow:
         """What these runs come to."""
-        taken = {
-            name: [run.route for run in runs if run.condition == name and (name != "free" or run.day == 1)]
-            for name in CONDITIONS
-        }
-        return cls(seed, {name: {r: routes.count(r) for r in ROUTES} for name, routes in taken.items()}, tuple(runs))
+        counted = [run for run in runs if run.condition != "free" or run.day == 1]
+        routes = {name: [run.route for run in counted if run.condition == name] for name in CONDITIONS}
+        counts = {name: {route: taken.count(route) for route in ROUTES} for name, taken in routes.items()}
+        return cls(seed, counts, tuple(runs))
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,44 +83,44 @@ class Preference:
 
 @dataclass(frozen=True)
 class Martinet(Study[int, MartinetRow]):
-    """Each agent is trained for some days, then B is closed.
+    """Detours after forced training
 
-    On the first day it is forced through routes 1, 2 and 3 once each (the other two are shut), then it runs freely.
-    From the second day on A is closed, but for two runs among them, and routes 2 and 3 are shut until it has been
-    there. On the last day B is closed instead of A. What it knows it keeps; between runs it is put back without a word.
+    Forced runs, free runs, room A closed, then room B closed, after Martinet et al. (2011). Are the routes
+    preferred in the order of their length that is left?
     """
 
     name = "martinet"
-    title = "Detours after forced training"
-    question = (
-        "Forced runs, free runs, room A closed, then room B closed, after Martinet et al. (2011). Are the routes "
-        "preferred in the order of their length that is left?"
-    )
     notes = ("Half of the original's days of training, since nothing changes any more after the second.",)
     agents = 40
-    settings = replace(MAZE_SETTINGS, information_weight=3.0)  # goes and looks whether a door that was shut still is
+    settings = replace(maze.SETTINGS, information_weight=3.0)  # goes and looks whether a door that was shut still is
 
     days: int = DAYS
 
-    def __post_init__(self) -> None:
-        at_least(self.name, 1, days=self.days)
-
     def run(self, task: int, settings: Settings) -> MartinetRow:
-        """The agent with this seed."""
-        agent, world, rng = new_agent(settings, task), new_world(), np.random.default_rng([task, self.days])
-        runs = [_forced(agent, world, route) for route in ROUTES]
-        runs += [_free(agent, world, 1) for _ in range(FREE)]
+        """On the first day force the agent through each route once (the others are shut), then let it run freely.
+
+        From the second day on A is closed, but for two runs among them, and routes 2 and 3 are shut until it has been
+        there; on the last day B instead of A. What it knows it keeps; between runs it is put back without a word.
+        """
+        agent, world = maze.new_agent(settings, task), maze.new_world()
+        rng = np.random.default_rng([task, self.days])
+        runs = [_run(agent, world, 1, "forced", route) for route in ROUTES]
+        runs += [_run(agent, world, 1, "free") for _ in range(FREE)]
         for day in range(2, self.days + 1):
             free = free_runs(rng)
             for number in range(BLOCKED + 2):
-                runs.append(_free(agent, world, day) if number in free else _blocked(agent, world, day, A))
-        return MartinetRow.of(task, [*runs, *(_blocked(agent, world, self.days + 1, B) for _ in range(PROBES))])
+                runs.append(_run(agent, world, day, "free" if number in free else "A closed"))
+        runs += [_run(agent, world, self.days + 1, "B closed") for _ in range(PROBES)]
+        return MartinetRow.of(task, runs)
 
     def summarise(self, rows: Sequence[MartinetRow]) -> Findings:
         """Shares of the routes that count, and the comparisons of the original."""
         runs = [run for row in rows for run in row.runs]
-        shares = {name: {route: _share(rows, name, route) for route in routes} for name, routes in CONDITIONS.items()}
-        preferences = [_preference(rows, name, *pair) for name, pairs in EXPECTED.items() for pair in pairs]
+        shares: Shares = {
+            name: {route: _of_all(rows, name, [row.counts[name][route] for row in rows]) for route in routes}
+            for name, routes in CONDITIONS.items()
+        }
+        preferences = [_preference(rows, *expected) for expected in EXPECTED]
         reached = sum(run.steps is not None for run in runs)
         protocol = {
             "start": START,
@@ -150,18 +132,12 @@ class Martinet(Study[int, MartinetRow]):
             "most_steps_a_run": MOST,
         }
         summary = {"agents": len(rows), "runs": len(runs), "reached": reached, "shares": shares}
+        summary["preferences"] = preferences
+        json = {"world": maze.MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
         whole = f"{len(rows)} agents, {self.days} days of training; the goal reached in {reached}/{len(runs)} runs"
-        return Findings(
-            json={
-                "world": MAZE.name,
-                "protocol": protocol,
-                "rows": rows,
-                "summary": {**summary, "preferences": preferences},
-            },
-            lines=[whole, *_lines(shares, preferences)],
-            figures={"martinet_routes": partial(_routes, len(rows), self.days, shares, preferences)},
-            failed=short("goal reached in", reached, len(runs), "runs"),
-        )
+        figures = {"martinet_routes": partial(_figure, len(rows), self.days, shares, preferences)}
+        failed = [f"goal reached in {reached} of {len(runs)} runs"] if reached < len(runs) else []
+        return Findings(json, [whole, *_lines(shares, preferences)], figures, failed=failed)
 
 
 def free_runs(rng: np.random.Generator) -> tuple[int, int]:
@@ -172,60 +148,42 @@ def free_runs(rng: np.random.Generator) -> tuple[int, int]:
             return first, second
 
 
-def _forced(agent: Agent, world: MazeEnv, route: int) -> Run:
-    set_closed(world, doors=[door for other, door in ENTRANCES.items() if other != route])
-    _, steps = walk(agent, world, steps=MOST, ends=True)
-    return Run(1, "forced", None if steps is None else route, steps)
+def _run(agent: Agent, world: MazeEnv, day: int, condition: str, forced: int = 0) -> Run:
+    room = {"A closed": maze.A, "B closed": maze.B}.get(condition)
+    shut = [door for route, door in ENTRANCES.items() if (forced or (1 if room else route)) != route]
+    maze.set_closed(world, room=room, doors=shut)
 
-
-def _free(agent: Agent, world: MazeEnv, day: int) -> Run:
-    set_closed(world)
-    path, steps = walk(agent, world, steps=MOST, ends=True)
-    route = None if steps is None else next((GATES[room] for room in reversed(path) if room in GATES), None)
-    return Run(day, "free", route, steps)
-
-
-def _blocked(agent: Agent, world: MazeEnv, day: int, room: Position) -> Run:
-    shut, before = [ENTRANCES[2], ENTRANCES[3]], BEFORE[room]
-    set_closed(world, room=room, doors=shut)
-
-    def open_when_met() -> None:
-        if world.position == before:
+    def open_when_met(moment: Moment) -> None:
+        if room is not None and world.position == maze.BEFORE[room]:
             for door in shut:
                 world.open_door(*door)
 
-    path, steps = walk(agent, world, steps=MOST, ends=True, before=open_when_met)
-    later = path[path.index(before) :] if before in path else ()
+    path, steps = maze.walk(agent, world, steps=MOST, ends=True, watch=open_when_met)
+    if room is None:
+        gates = [maze.GATES[place] for place in path if place in maze.GATES]
+        return Run(day, condition, None if steps is None else forced or gates[-1], steps)
+    later = path[path.index(maze.BEFORE[room]) :] if maze.BEFORE[room] in path else ()
     chosen = [BRANCHES[to] for at, to in pairwise(later) if at == START and to in BRANCHES]
-    name = "A closed" if room == A else "B closed"
-    return Run(day, name, next((route for route in chosen if route != 1), None), steps)
+    return Run(day, condition, next((route for route in chosen if route != 1), None), steps)
 
 
-def _share(rows: Sequence[MartinetRow], condition: str, route: int) -> Interval | None:
-    """The share of a route among those that count, with its interval over the agents."""
-    counts = [row.counts[condition] for row in rows]
-    return bootstrap([count[route] for count in counts], _totals(counts, condition))
+def _of_all(rows: Sequence[MartinetRow], condition: str, values: Sequence[int]) -> Interval | None:
+    """Runs of each agent over all its runs that count, with the interval over the agents."""
+    return bootstrap(values, [sum(row.counts[condition][route] for route in CONDITIONS[condition]) for row in rows])
 
 
 def _preference(rows: Sequence[MartinetRow], condition: str, more: int, less: int) -> Preference:
-    counts = [row.counts[condition] for row in rows]
-    differences = [count[more] - count[less] for count in counts]
-    p_value = None
-    if len(rows) > 1:
-        test: Any = stats.wilcoxon(differences, alternative="greater") if any(differences) else None
-        p_value = 1.0 if test is None else float(test.pvalue)
-    return Preference(condition, more, less, bootstrap(differences, _totals(counts, condition)), p_value)
+    differences = [row.counts[condition][more] - row.counts[condition][less] for row in rows]
+    test: Any = stats.wilcoxon(differences, alternative="greater") if any(differences) else None
+    p_value = None if len(rows) < 2 else 1.0 if test is None else float(test.pvalue)
+    return Preference(condition, more, less, _of_all(rows, condition, differences), p_value)
 
 
-def _totals(counts: Sequence[dict[int, int]], condition: str) -> list[int]:
-    return [sum(count[route] for route in CONDITIONS[condition]) for count in counts]
-
-
-def _lines(shares: dict[str, dict[int, Interval | None]], preferences: Sequence[Preference]) -> list[str]:
-    lines = [
-        f"{name}: {', '.join(f'route {route} {_text(share)}' for route, share in part.items())} (95 % intervals)"
-        for name, part in shares.items()
-    ]
+def _lines(shares: Shares, preferences: Sequence[Preference]) -> list[str]:
+    lines: list[str] = []
+    for name, part in shares.items():
+        texts = ", ".join(f"route {route} {_text(share)}" for route, share in part.items())
+        lines.append(f"{name}: {texts} (95 % intervals)")
     for part in preferences:
         p = "-" if part.p_value is None else f"{part.p_value:.2g}"
         lines.append(f"{part.condition}: route {part.more} over {part.less} by {_text(part.difference)}, p = {p}")
@@ -236,26 +194,20 @@ def _text(interval: Interval | None) -> str:
     return "-" if interval is None else f"{interval.value:.0%} ({interval.low:.0%} to {interval.high:.0%})"
 
 
-def _routes(
-    agents: int, days: int, shares: dict[str, dict[int, Interval | None]], preferences: Sequence[Preference]
-) -> Figure:
-    title = (
-        f"Routes chosen by {count(agents, 'agent')} after {count(days, 'day')} of training, "
-        "mean with 95 % intervals (bootstrap over agents)"
-    )
-    figure, axes = panels(title, 3, (10.5, 4.4), sharey=True, width_ratios=[len(part) for part in shares.values()])
-    titles = ("first day, nothing closed", "A closed", "last day, B closed")
-    for ax, (name, part), above in zip(axes, shares.items(), titles, strict=True):
-        for place, (route, share) in enumerate(part.items()):
-            plot_bars(
-                ax, [place], [share], texts=[f"{share.value:.0%}" if share else ""], width=0.65, color=COLOURS[route]
-            )
+def _figure(agents: int, days: int, shares: Shares, preferences: Sequence[Preference]) -> Figure:
+    who, long = f"{agents} agent{'s' * (agents > 1)}", f"{days} day{'s' * (days > 1)}"
+    title = f"Routes chosen by {who} after {long} of training, mean with 95 % intervals (bootstrap over agents)"
+    widths = [len(part) for part in shares.values()]
+    figure, axes = panels(title, (1, 3), (10.5, 4.4), sharey=True, width_ratios=widths)
+    for ax, (name, part) in zip(axes, shares.items(), strict=True):
+        texts, colours = [f"{share.value:.0%}" if share else "" for share in part.values()], maze.COLOURS
+        there = [colours[route] for route, share in part.items() if share is not None]
+        plot_bars(ax, range(len(part)), list(part.values()), texts=texts, width=0.65, color=there)
         ax.set_xticks(range(len(part)), [f"route {route}" for route in part])
-        ax.set_title(above, fontsize=12)
-        brackets = [preference for preference in preferences if preference.condition == name]
-        for number, preference in enumerate(brackets):
-            _bracket(ax, preference, list(part), 1.1 + 0.1 * number)
-    shares_axis(axes[0], "share of the runs that count", 1.32)
+        ax.set_title(TITLES[name], fontsize=12)
+        for number, preference in enumerate(one for one in preferences if one.condition == name):
+            _bracket(ax, preference, CONDITIONS[name], 1.1 + 0.1 * number)
+    shares_axis(axes[0], "share of the runs that count", high=1.32)
     return figure
 
 
@@ -263,9 +215,6 @@ def _bracket(ax: Axes, part: Preference, routes: Sequence[int], height: float) -
     left, right = sorted((routes.index(part.more), routes.index(part.less)))
     ends = [height - 0.015, height, height, height - 0.015]
     ax.plot([left, left, right, right], ends, color=theme_of(ax).shade(0.7), linewidth=1.0)
-    bounds = (bound for bound in ("0.0001", "0.001", "0.01", "0.05", "1") if (part.p_value or 0.0) < float(bound))
-    p = "" if part.p_value is None else f", p < {next(bounds, '1')}"
-    ax.text((left + right) / 2, height + 0.008, f"{part.more} > {part.less}{p}", ha="center", va="bottom", size=9)
-
-
-STUDY = Martinet()
+    above = next((bound for bound in BOUNDS if part.p_value is not None and part.p_value < float(bound)), "1")
+    text = f"{part.more} > {part.less}" + ("" if part.p_value is None else f", p < {above}")
+    ax.text((left + right) / 2, height + 0.008, text, ha="center", va="bottom", size=9)

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
 
-from .report import Report
-from .saving import check_folder, facts, made_with, make_folder, write_report, write_study, write_tables
+from ...agent import Settings
+from ...model import make_folder
+from .. import check_outputs
+from .report import bullets, escape, table_markdown
+from .saving import made_with, report_texts, write_study, write_texts
 from .study import EVERYTHING, AnyStudy, studies
 from .tables import Table
 
@@ -22,64 +25,44 @@ Counter = Callable[[str, int], AbstractContextManager[Callable[[], None]]]
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """What was asked for.
+    """What was asked for."""
 
-    Attributes:
-        runs: agents that take part in a study; the study's own number if None.
-        seed: of the first agent.
-        look_ahead: steps that a policy looks ahead; the study's own if None.
-    """
-
-    runs: int | None = None
-    seed: int = 0
-    look_ahead: int | None = None
+    runs: int | None = None  # agents that take part in a study; the study's own number if None
+    seed: int = 0  # of the first agent
+    look_ahead: int | None = None  # steps that a policy looks ahead; the study's own if None
 
     def command(self, study: str) -> str:
         """That runs it again."""
-        runs = "" if self.runs is None else f" --runs {self.runs}"
-        look_ahead = "" if self.look_ahead is None else f" --look-ahead {self.look_ahead}"
-        return f"cogmap study {study}{runs} --seed {self.seed}{look_ahead}"
+        options = {"runs": self.runs, "seed": self.seed, "look-ahead": self.look_ahead}
+        given = [f"--{name} {value}" for name, value in options.items() if value is not None]
+        return " ".join(["cogmap study", study, *given])
+
+    def settings(self, study: AnyStudy) -> Settings:
+        """Those of the study, with another look-ahead if one is given.
+
+        Raises:
+            CogmapError: it is below 1.
+        """
+        return study.settings if self.look_ahead is None else replace(study.settings, look_ahead=self.look_ahead)
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """How a study went.
-
-    Attributes:
-        study: which.
-        agents: how many took part.
-        seconds: that it took, figures and report included.
-        lines: what the terminal shows.
-        written: its files, the report last.
-        failed: what its report lists as failed.
-        failure: why it was not done, in one line; None if it was.
-    """
+    """How a study went."""
 
     study: AnyStudy
-    agents: int
-    seconds: float
-    lines: Sequence[str] = ()
-    written: Sequence[Path] = ()
-    failed: Sequence[str] = ()
-    failure: str | None = None
-
-
-def check_study(study: AnyStudy, folder: Path, asked: Asked, *, ledger: Path | None = None) -> None:
-    """Refuse, before anything is computed, what `run_study` could not do.
-
-    Raises:
-        CogmapError: a bad look-ahead, a folder that cannot be written, or a ledger that was made with other settings.
-    """
-    settings = study.looking(asked.look_ahead)
-    check_folder(folder, study.name)
-    with study.ledger(ledger or folder, settings):
-        pass
+    agents: int  # that took part
+    seconds: float  # figures and report included
+    lines: Sequence[str] = ()  # that the terminal shows
+    written: Sequence[Path] = ()  # its files, the report last
+    failed: Sequence[str] = ()  # what its report lists as failed
+    failure: str = ""  # why it was not done, in one line; empty if it was
 
 
 def run_study(
     study: AnyStudy,
     folder: Path | str,
-    asked: Asked = Asked(),
+    asked: Asked | None = None,
     *,
     executor: Executor | None = None,
     ledger: Path | None = None,
@@ -90,52 +73,48 @@ def run_study(
     Args:
         study: of this package, or your own.
         folder: where its files go; is made if need be.
-        asked: how many agents, with which seeds.
+        asked: how many agents, with which seeds; as the study has it unless given.
         executor: where its tasks are done, in this process if None.
         ledger: the folder of the ledger of a study that keeps one, `folder` if None.
         counter: shows what is done.
 
     Raises:
         CogmapError: a number is out of range, a worker was killed, or a file cannot be written.
-        KeyboardInterrupt: with the place of the finished runs, if they are kept.
+        KeyboardInterrupt: with the file of the finished runs, if they are kept.
     """
-    folder, begin, settings = Path(folder), perf_counter(), study.looking(asked.look_ahead)
-    agents = study.agents if asked.runs is None else asked.runs
-    tasks = study.tasks(range(asked.seed, asked.seed + agents), settings)
-    with study.ledger(ledger or folder, settings) as kept:
+    asked, folder, begin = asked or Asked(), Path(folder), perf_counter()
+    settings, agents = asked.settings(study), study.agents if asked.runs is None else asked.runs
+    _check(folder, study.name)
+    parts = len(study.tasks(range(agents), settings))
+    with study.ledger(ledger or folder, settings) as kept, counter(f"studying {study.name}", parts) as on_done:
         try:
-            with counter(f"studying {study.name}", len(tasks)) as on_done:
-                rows = study.rows(
-                    agents=agents, seed=asked.seed, settings=settings, executor=executor, ledger=kept, on_done=on_done
-                )
+            rows = study.rows(
+                agents, seed=asked.seed, settings=settings, executor=executor, ledger=kept, on_done=on_done
+            )
         except KeyboardInterrupt as stop:
-            where = () if kept is None else (f"the finished runs are kept in {kept.path}",)
-            raise KeyboardInterrupt(*where) from stop
+            raise KeyboardInterrupt(*([] if kept is None else [kept.path])) from stop
     with counter("drawing", 1):
-        make_folder(folder)
         found = study.summarise(rows)
-        changed = None if settings == study.settings else asked.look_ahead
-        command = Asked(agents, asked.seed, changed).command(study.name)
-        head = {"study": study.name, "agents": agents, "seed": asked.seed, "command": command}
+        command = Asked(agents, asked.seed, None if settings == study.settings else asked.look_ahead)
+        head = {"study": study.name, "agents": agents, "seed": asked.seed, "command": command.command(study.name)}
         written = write_study(folder, study, found, {**head, "settings": settings.to_dict(), **made_with()})
     return Outcome(study, agents, perf_counter() - begin, found.lines, written, found.failed)
 
 
 def run_studies(
-    folder: Path,
-    asked: Asked,
-    *,
-    executor: Executor | None = None,
-    counter: Counter,
-    on_outcome: Callable[[Outcome], None],
+    folder: Path, asked: Asked, *, executor: Executor | None, counter: Counter, on_outcome: Callable[[Outcome], None]
 ) -> tuple[list[Outcome], list[Path]]:
     """Run every study, each in a folder below this one, and write the page that leads to them.
 
-    A study that goes wrong, whatever it was, is an outcome; the others are still run. They share one ledger.
+    A study that goes wrong is an outcome, whatever it was; the others are still run. They share one ledger.
 
     Raises:
-        CogmapError: a file of the page cannot be written.
+        CogmapError: nothing could be written, the ledger is of other settings, or a bad look-ahead.
     """
+    _check(folder, INDEX)
+    for study in studies().values():
+        with study.ledger(folder, asked.settings(study)):
+            pass
     outcomes: list[Outcome] = []
     for study in studies().values():
         begin = perf_counter()
@@ -150,32 +129,30 @@ def run_studies(
 
 
 def write_index(folder: Path, outcomes: Sequence[Outcome], asked: Asked) -> list[Path]:
-    """Write `index.md`, `index.html` and their table, which lead to the reports; answers with the files.
+    """Write `index.md`, `index.html` and their table, which lead to the reports; answers with the reports.
 
     Raises:
         CogmapError: a file cannot be written.
     """
-    done = [outcome for outcome in outcomes if outcome.failure is None]
-    rows = [
-        (one.study.name, one.agents, round(one.seconds, 1), "failed" if one.failure else "done", len(one.failed))
-        for one in outcomes
-    ]
+    links, failed, rows = list[str](), list[str](), list[tuple[str, int, float, str, int]]()
+    for one in outcomes:
+        name, state = one.study.name, "failed" if one.failure else "done"
+        rows.append((name, one.agents, round(one.seconds, 1), state, len(one.failed)))
+        if one.failure or one.failed:
+            failed.append(f"{name}: {one.failure or f'{len(one.failed)} listed in its report'}")
+        if not one.failure:
+            links.append(f"- [{escape(f'{one.study.asks[0]} ({name})')}](<{name}/{name}.md>)")
     heads = ("study", "agents", "seconds", "outcome", "failures listed")
     table = Table(INDEX, heads, rows, "How they went; what did not get there is listed in the reports")
-    failed = [
-        f"{one.study.name}: {one.failure or f'{len(one.failed)} listed in its report'}"
-        for one in outcomes
-        if one.failure or one.failed
-    ]
-    report = Report(
-        title="Every study",
-        question=f"{len(done)} of {len(outcomes)} studies were run to their end. Each has a report of its own.",
-        links=[(f"{one.study.name}/{one.study.name}.md", f"{one.study.title} ({one.study.name})") for one in done],
-        tables=[table],
-        failed=failed,
-        command=asked.command(EVERYTHING),
-        facts=facts({"seed": asked.seed, **made_with()}),
-    )
+    whole = f"{len(links)} of {len(outcomes)} studies were run to their end. Each has a report of its own."
+    found = {"Parts": ["\n".join(links)], "What came of it": [table_markdown(table)]}
+    sections = {**found, "What failed": [bullets(failed or ["Nothing."])]}
+    values = {"command": asked.command(EVERYTHING), "seed": asked.seed, **made_with()}
+    write_texts(folder, {f"{INDEX}.csv": table.csv()})
+    report = report_texts("Every study", whole, sections, values, [table], folder)
+    return write_texts(folder, {f"{INDEX}{suffix}": text for suffix, text in report.items()})
+
+
+def _check(folder: Path, name: str) -> None:
     make_folder(folder)
-    write_tables(folder, [table])
-    return write_report(folder / INDEX, report)
+    check_outputs([folder / f"{name}{suffix}" for suffix in (".json", ".md", ".html")])

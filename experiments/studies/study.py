@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-import sys
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, partial
 from importlib import import_module
+from inspect import getdoc
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 from ...agent import Settings
 from ...model import CogmapError
-from .. import Ledger, map_tasks
+from .. import Ledger, completed
+from .figures import Figure
 from .tables import Table
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-EVERYTHING = "all"
-"""Stands for every study, one after the other."""
+EVERYTHING = "all"  # stands for every study, one after the other
 
 Task = TypeVar("Task")
 Row = TypeVar("Row")
@@ -49,27 +46,29 @@ class Findings:
 
 
 class Study(ABC, Generic[Task, Row]):
-    """A study; a subclass says what it is, and how often something is done in it is a field of it.
+    """A study. A subclass says in its docstring what it asks: the title of its report, a blank line, the question.
+
+    How often its protocol does something are its fields, 1 or more.
 
     Attributes:
         name: of the study and of its files.
-        title: of its report.
-        question: what it asks, and how it goes about it.
         notes: where its figures differ from the published ones and why, and what to keep in mind.
         agents: how many take part unless told otherwise.
         settings: of the agents unless told otherwise.
+        alone: whether its tasks are done in this process, one after the other, whatever the executor.
+
+    Raises:
+        CogmapError: a field below 1.
     """
 
     name: ClassVar[str]
-    title: ClassVar[str]
-    question: ClassVar[str]
     notes: ClassVar[tuple[str, ...]] = ()
     agents: ClassVar[int] = 20
     settings: ClassVar[Settings] = Settings()
+    alone: ClassVar[bool] = False
 
-    def tasks(self, seeds: Sequence[int], settings: Settings) -> Sequence[Task]:
-        """What is to be done for the agents with these seeds: a task for each seed, unless a study knows better."""
-        return seeds  # type: ignore[return-value]
+    def __post_init__(self) -> None:
+        at_least(self.name, 1, **{name: value for name, value in vars(self).items() if isinstance(value, int)})
 
     @abstractmethod
     def run(self, task: Task, settings: Settings) -> Row:
@@ -79,15 +78,29 @@ class Study(ABC, Generic[Task, Row]):
     def summarise(self, rows: Sequence[Row]) -> Findings:
         """What the rows come to, in the order of the tasks."""
 
+    def tasks(self, seeds: Sequence[int], settings: Settings) -> Sequence[Task]:
+        """What is to be done for the agents with these seeds; unless a study knows better, a task is a seed."""
+        return seeds  # type: ignore[return-value]
+
+    def ledger(self, folder: Path, settings: Settings) -> AbstractContextManager[Ledger | None]:
+        """What keeps finished runs in a folder, so that the same command goes on; None: nothing does."""
+        return nullcontext()
+
+    def completed(
+        self, tasks: Sequence[Task], settings: Settings, executor: Executor | None, ledger: Ledger | None
+    ) -> Iterator[tuple[int, Row]]:
+        """Number of the task and its row, as they finish."""
+        return completed(partial(self.run, settings=settings), tasks, executor=executor)
+
     def rows(
         self,
-        *,
         agents: int | None = None,
+        *,
         seed: int = 0,
         settings: Settings | None = None,
         executor: Executor | None = None,
         ledger: Ledger | None = None,
-        on_done: Callable[[], None] | None = None,
+        on_done: Callable[[], None] = lambda: None,
     ) -> list[Row]:
         """Do all tasks.
 
@@ -96,42 +109,26 @@ class Study(ABC, Generic[Task, Row]):
             seed: of the first.
             settings: of the agents.
             executor: where the tasks are done, in this process if None; the rows do not depend on it.
-            ledger: of a study that keeps one, see `ledger`.
-            on_done: called after each of the `len(tasks(...))` tasks.
+            ledger: see `ledger`.
+            on_done: called after each task.
 
         Raises:
             CogmapError: `agents` below 1, a negative seed, or a worker was killed.
         """
-        agents = self.agents if agents is None else agents
+        agents, settings = self.agents if agents is None else agents, settings or self.settings
         at_least(self.name, 1, agents=agents)
         at_least(self.name, 0, seed=seed)
-        settings = settings or self.settings
-        tasks = self.tasks(range(seed, seed + agents), settings)
-        return self.work(tasks, settings, executor=executor, ledger=ledger, on_done=on_done)
+        tasks, rows = self.tasks(range(seed, seed + agents), settings), dict[int, Row]()
+        for number, row in self.completed(tasks, settings, None if self.alone else executor, ledger):
+            rows[number] = row
+            on_done()
+        return [rows[number] for number in range(len(tasks))]
 
-    def work(
-        self,
-        tasks: Sequence[Task],
-        settings: Settings,
-        *,
-        executor: Executor | None,
-        ledger: Ledger | None,
-        on_done: Callable[[], None] | None,
-    ) -> list[Row]:
-        """The rows of these tasks; see `rows`."""
-        return map_tasks(partial(self.run, settings=settings), tasks, executor=executor, on_done=on_done)
-
-    def ledger(self, folder: Path, settings: Settings) -> AbstractContextManager[Ledger | None]:
-        """The ledger in which finished runs are kept, in a folder that is there; None: it keeps none."""
-        return nullcontext()
-
-    def looking(self, look_ahead: int | None) -> Settings:
-        """The settings of the protocol, with another look-ahead if one is given.
-
-        Raises:
-            CogmapError: `look_ahead` is below 1.
-        """
-        return self.settings if look_ahead is None else replace(self.settings, look_ahead=look_ahead)
+    @property
+    def asks(self) -> tuple[str, str]:
+        """Title and question."""
+        title, _, question = (getdoc(type(self)) or self.name).partition("\n\n")
+        return title, " ".join(question.split())
 
 
 AnyStudy = Study[Any, Any]
@@ -139,25 +136,26 @@ AnyStudy = Study[Any, Any]
 
 @cache
 def studies() -> dict[str, AnyStudy]:
-    """The studies of this package by name: each is a file beside this one that has a `STUDY`."""
-    found: list[AnyStudy] = []
+    """The studies of this package by name: every class with a name in a file beside this one."""
     for module in iter_modules([str(Path(__file__).parent)]):
-        study = getattr(import_module(f".{module.name}", __package__), "STUDY", None)
-        found += [study] if isinstance(study, Study) else []
+        import_module(f".{module.name}", __package__)
+    found = [kind() for kind in _kinds(Study) if "name" in vars(kind) and kind.__module__.startswith(f"{__package__}.")]
     return {study.name: study for study in found}
 
 
+def _kinds(above: type[AnyStudy]) -> Iterator[type[AnyStudy]]:
+    for kind in above.__subclasses__():
+        yield from (kind, *_kinds(kind))
+
+
 def study_named(name: str) -> AnyStudy:
-    """The study of that name; or, of a name that ends in `.py`, the `STUDY` in that file.
+    """The study of that name.
 
     Raises:
         CogmapError: there is none.
     """
-    if name.endswith(".py"):
-        return _study_in(Path(name))
     if name not in studies():
-        choice = f"{', '.join(studies())}, or {EVERYTHING}, or give a file FILE.py"
-        raise CogmapError(f"no study is called {name!r}; choose one of {choice}")
+        raise CogmapError(f"no study is called {name!r}; choose one of {', '.join(studies())}, or {EVERYTHING}")
     return studies()[name]
 
 
@@ -176,18 +174,3 @@ def failed_seeds(what: str, rows: Sequence[Any], failed: Callable[[Any], bool]) 
     """Of how many rows it is so, and their seeds, as a line of `Findings.failed`; none of no rows."""
     seeds = [str(row.seed) for row in rows if failed(row)]
     return [f"{len(seeds)} of {len(rows)} {what} (seeds {', '.join(seeds)})"] if seeds else []
-
-
-def short(what: str, count: int, of: int, unit: str = "") -> list[str]:
-    """That fewer than all got there, as a line of `Findings.failed`; none if all did."""
-    return [f"{what} {count} of {of} {unit}".rstrip()] if count < of else []
-
-
-def _study_in(path: Path) -> AnyStudy:
-    if not path.is_file():
-        raise CogmapError(f"there is no file {path}; give the file of a study")
-    sys.path.insert(0, str(path.resolve().parent))  # where other processes look for it, too
-    study = getattr(import_module(path.stem), "STUDY", None)
-    if not isinstance(study, Study):
-        raise CogmapError(f"{path} has no STUDY; let it end with STUDY = a study of yours")
-    return study

@@ -5,36 +5,28 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from io import StringIO
 from typing import Any
 
-Value = str | int | float | bool | None
-"""What stands in a table."""
+Value = str | int | float | bool | None  # what stands in a table
 
-MAIN = ("rows", "runs")
-"""What a study calls its main rows."""
+MAIN = ("rows", "runs")  # what a study calls its main rows
 MOST_ROWS, MOST_COLUMNS = 45, 9
 """Of a table read off JSON that the report shows."""
+
+_Tables = dict[str, list[dict[str, Value]]]
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table of a study, kept as CSV.
+    """A table of a study, kept as CSV."""
 
-    Attributes:
-        name: stem of its file.
-        columns: their heads.
-        rows: one value a column.
-        caption: what it shows, one sentence.
-        shown: whether the report shows it; those that are long, or for machines only, are named there.
-    """
-
-    name: str
-    columns: Sequence[str]
-    rows: Sequence[Sequence[Value]]
-    caption: str = ""
-    shown: bool = True
+    name: str  # stem of its file
+    columns: Sequence[str]  # their heads
+    rows: Sequence[Sequence[Value]]  # one value a column
+    caption: str = ""  # what it shows, one sentence
+    shown: bool = True  # whether the report shows it; those that are long, or for machines only, are named there
 
     @classmethod
     def of(cls, name: str, rows: Sequence[Mapping[str, Value]], caption: str = "", *, shown: bool = True) -> Table:
@@ -51,11 +43,11 @@ class Table:
 
 def plain(value: Any) -> Any:
     """The value as plain JSON: records as objects, tuples as lists, names of numbers as text."""
-    return json.loads(json.dumps(value, default=asdict, allow_nan=False))
+    return json.loads(json.dumps(value, default=_record, allow_nan=False))
 
 
 def flat(values: Mapping[str, Any], before: str = "") -> dict[str, Value]:
-    """Dotted names and single values of plain JSON; lists become JSON text, lists of objects are left out."""
+    """Dotted names and single values of JSON; lists become JSON text, lists of objects are left out."""
     row: dict[str, Value] = {}
     for key, value in values.items():
         if isinstance(value, Mapping):
@@ -71,29 +63,35 @@ def tables_of(study: str, found: Mapping[str, Any]) -> list[Table]:
     Objects in a row get dotted columns; a list of objects in it gets a table of its own, in which the seed of the row
     is repeated, or else its number.
     """
-    rows: dict[str, list[dict[str, Value]]] = {}
+    tables: _Tables = {}
     for key, value in sorted(found.items(), key=lambda item: item[0] not in MAIN):
         name = study if key in MAIN else f"{study}_{key}"
         if key == "summary" and isinstance(value, Mapping):
-            rows[name] = _summary(value)
+            tables[name] = _summary(value)
         else:
-            _collect(rows, name, key, value, {})
-    top = {study, *(f"{study}_{key}" for key in found)}
-    return [_table(name, part, nested=name not in top) for name, part in rows.items() if part]
+            _collect(tables, name, key, value, {})
+    made, top = list[Table](), {study, *(f"{study}_{key}" for key in found)}
+    for name, rows in tables.items():
+        caption = f"{name.replace('_', ' ')}, {len(rows)} row{'' if len(rows) == 1 else 's'}"
+        short = len(rows) <= MOST_ROWS and len({column for row in rows for column in row}) <= MOST_COLUMNS
+        made += [Table.of(name, rows, caption, shown=short and name in top)] if rows else []
+    return made
 
 
-def _collect(
-    rows: dict[str, list[dict[str, Value]]], name: str, key: str, value: Any, owner: Mapping[str, Value]
-) -> None:
+def _record(value: Any) -> dict[str, Any]:
+    own = getattr(value, "to_dict", None)
+    return {field.name: getattr(value, field.name) for field in fields(value)} if own is None else own()
+
+
+def _collect(tables: _Tables, name: str, key: str, value: Any, owner: Mapping[str, Value]) -> None:
     parts = [(value, owner)] if isinstance(value, Mapping) else []
-    if _is_rows(value):
-        for number, row in enumerate(value):
-            whose = {**owner, **({"seed": row["seed"]} if "seed" in row else {key.removesuffix("s"): number})}
-            rows.setdefault(name, []).append({**whose, **flat(row)})
-            parts.append((row, whose))
+    for number, row in enumerate(value if _is_rows(value) else ()):
+        whose = {**owner, **({"seed": row["seed"]} if "seed" in row else {key.removesuffix("s"): number})}
+        tables.setdefault(name, []).append({**whose, **flat(row)})
+        parts.append((row, whose))
     for part, whose in parts:
         for below, inner in part.items():
-            _collect(rows, f"{name}_{below.replace(' ', '_').replace('.', '_')}", below, inner, whose)
+            _collect(tables, f"{name}_{below.replace(' ', '_').replace('.', '_')}", below, inner, whose)
 
 
 def _summary(value: Mapping[str, Any]) -> list[dict[str, Value]]:
@@ -101,13 +99,6 @@ def _summary(value: Mapping[str, Any]) -> list[dict[str, Value]]:
     if value and all(isinstance(part, Mapping) for part in value.values()):
         return [{"part": key, **flat(part)} for key, part in value.items()]
     return [{"name": key, "value": part} for key, part in flat(value).items()]
-
-
-def _table(name: str, rows: Sequence[Mapping[str, Value]], *, nested: bool) -> Table:
-    table = Table.of(name, rows, f"{name.replace('_', ' ')}, {len(rows)} row{'' if len(rows) == 1 else 's'}")
-    if nested or len(rows) > MOST_ROWS or len(table.columns) > MOST_COLUMNS:
-        return Table(name, table.columns, table.rows, table.caption, shown=False)
-    return table
 
 
 def _is_rows(value: Any) -> bool:

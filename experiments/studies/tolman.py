@@ -6,95 +6,50 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...agent import Settings
 from ...views import GREY, SKY, theme_of
 from ...worlds import Position
-from .figures import errors, legend_below, panels, plot_bars, shares_axis
+from . import tolman_maze as maze
+from .figures import Axes, Figure, legend_below, panels, plot_bars, plot_line, shares_axis
 from .intervals import Share, total_variation, wilson
-from .study import Findings, Study, at_least, short
-from .tolman_maze import (
-    COLOURS,
-    GOAL,
-    MAZE,
-    MISSED,
-    ROUTES,
-    RUNS,
-    SETTINGS,
-    START,
-    STEPS,
-    A,
-    B,
-    TolmanRun,
-    agent_run,
-    choice_after,
-    new_agent,
-    new_world,
-    plot_tolman_flow,
-    set_closed,
-)
+from .study import Findings, Study
+from .tolman_maze import COLOURS, ROUTES, TolmanRun
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-BLOCKS: dict[str, Position | None] = {"no obstacle": None, "A closed": A, "B closed": B}
+BLOCKS: dict[str, Position | None] = {"no obstacle": None, "A closed": maze.A, "B closed": maze.B}
 """The three blocks and the room that is closed in each, in their order; the agent keeps its memory."""
-PAPER: dict[str, tuple[int, int, int]] = {
-    "no obstacle": (48, 27, 28),
-    "A closed": (0, 70, 49),
-    "B closed": (0, 36, 48),
-}
-"""Runs of 120 by route, paper's table of path counts; with B closed they are attempts, since B cuts route 2 too."""
+PAPER = {"no obstacle": (48, 27, 28, 17), "A closed": (0, 70, 49, 1), "B closed": (0, 36, 48, 36)}
+"""Runs by route and all others, paper's table of path counts; with B closed attempts, since B cuts route 2 too."""
 PAPER_RUNS = 120
 KNOB = "information_weight"
 KNOB_VALUES = (0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0)
 """How much finding out is worth beside the goal: the balance of exploring and exploiting."""
-KNOB_AGENTS = 4
-"""At most, for each value of the knob but that of the study."""
+KNOB_AGENTS = 4  # at most, for each value of the knob but that of the study
+MISSED_OR: dict[int | None, Any] = {**COLOURS, None: GREY}  # colours of the routes, and of a missed goal
 
-Task = tuple[float, int]
-"""Value of the knob, seed."""
+Task = tuple[float, int]  # value of the knob, seed
 
 
 @dataclass(frozen=True, slots=True)
 class TolmanRow:
-    """One agent; the start is the same for all.
-
-    Attributes:
-        seed: of the agent.
-        places: places of its map at the end; the maze has 23 rooms.
-        after_block: by block, route 2 or 3, whichever was tried first after the closed room was first met; None if
-            neither.
-        blocks: the runs of each block.
-    """
+    """One agent; the start is the same for all."""
 
     seed: int
-    places: int
-    after_block: dict[str, int | None]
+    places: int  # of its map at the end; the maze has 23 rooms
+    after_block: dict[str, int | None]  # the route, 2 or 3, first tried after the closed room was first met
     blocks: dict[str, tuple[TolmanRun, ...]]
 
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """The runs of one block, all agents together.
-
-    Attributes:
-        runs: how many.
-        attempted: shares of all runs by route, the first set out on.
-        reached: the same, the goal reached on it.
-        goal_reached: the goal reached on any.
-        missed: runs that missed the goal, by reason.
-        runs_that_met_the_block: in which the closed room was met.
-        agents_by_first_route_after_the_block: by the route tried first after the closed room was first met.
-    """
+    """The runs of one block, all agents together."""
 
     runs: int
-    attempted: dict[int, Share]
-    reached: dict[int, Share]
+    attempted: dict[int, Share]  # of all runs by route, the first set out on
+    reached: dict[int, Share]  # the same, the goal reached on it
     goal_reached: Share
-    missed: dict[str, int]
+    missed: dict[str, int]  # runs that missed the goal, by reason
     runs_that_met_the_block: int
     agents_by_first_route_after_the_block: dict[int, int]
 
@@ -102,66 +57,55 @@ class Counts:
     def of(cls, rows: Sequence[TolmanRow], block: str) -> Counts:
         """The counts of a block."""
         runs = [run for row in rows for run in row.blocks[block]]
-        missed = Counter(run.missed for run in runs)
-        after = [row.after_block[block] for row in rows]
+        missed, after = Counter(run.missed for run in runs), [row.after_block[block] for row in rows]
         return cls(
             runs=len(runs),
-            attempted=_by_route([run.attempted for run in runs]),
-            reached=_by_route([run.route for run in runs]),
+            attempted=_shares([run.attempted for run in runs]),
+            reached=_shares([run.route for run in runs]),
             goal_reached=wilson(sum(run.route is not None for run in runs), len(runs)),
-            missed={reason: missed[reason] for reason in MISSED},
+            missed={reason: missed[reason] for reason in maze.MISSED},
             runs_that_met_the_block=sum(run.met_at is not None for run in runs),
             agents_by_first_route_after_the_block={route: after.count(route) for route in ROUTES},
         )
 
     def compared(self, block: str) -> tuple[int, ...]:
         """Runs by route and, last, all others, counted as the paper counts that block."""
-        if block == "B closed":
-            routes = (0, self.attempted[2].count, self.attempted[3].count)
-        else:
-            routes = tuple(share.count for share in self.reached.values())
+        shares = self.attempted if block == "B closed" else self.reached
+        routes = [0 if block == "B closed" and route == 1 else share.count for route, share in shares.items()]
         return (*routes, self.runs - sum(routes))
+
+    @property
+    def why(self) -> str:
+        """Why runs missed the goal."""
+        return ", ".join(f"{count} {reason}" for reason, count in self.missed.items() if count)
 
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """All that was found with one value of the knob.
-
-    Attributes:
-        value: of the knob.
-        agents: how many took part.
-        distance: from the paper's table: total variation of the shares by route and of missed runs, mean of the blocks.
-        blocks: the counts of each.
-    """
+    """All that was found with one value of the knob."""
 
     value: float
     agents: int
-    distance: float
+    distance: float  # total variation of the shares by route and of missed runs from the paper's, mean of the blocks
     blocks: dict[str, Counts]
 
     @classmethod
     def of(cls, value: float, rows: Sequence[TolmanRow]) -> Setting:
         """What these agents come to."""
         blocks = {block: Counts.of(rows, block) for block in BLOCKS}
-        apart = [total_variation(counts.compared(block), paper_counts(block)) for block, counts in blocks.items()]
+        apart = [total_variation(counts.compared(block), PAPER[block]) for block, counts in blocks.items()]
         return cls(value, len(rows), sum(apart) / len(apart), blocks)
 
 
 @dataclass(frozen=True)
 class Tolman(Study[Task, tuple[float, TolmanRow]]):
-    """Each agent runs three blocks with one memory; a few do so with other values of the knob.
+    """Tolman's maze in three blocks
 
-    Attributes:
-        runs: in a block.
-        knob: values of `KNOB` that a few agents are tried with as well.
+    Three blocks of runs with one memory: no obstacle, room A closed, room B closed. Which of the three
+    routes to the goal is taken?
     """
 
     name = "tolman"
-    title = "Tolman's maze in three blocks"
-    question = (
-        "Three blocks of runs with one memory: no obstacle, room A closed, room B closed. Which of the three "
-        "routes to the goal is taken?"
-    )
     notes = (
         "The rooms A and B are inferred from the paper's figures. A closed B cuts route 2 as well, so the "
         "paper's 36 for route 2 with B closed must count attempts; here both are counted.",
@@ -169,13 +113,10 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
         "Agents fall into two or three walks each: intervals over single runs are too narrow.",
     )
     agents = 10
-    settings = SETTINGS
+    settings = maze.SETTINGS
 
-    runs: int = RUNS
+    runs: int = maze.RUNS  # in a block
     knob: tuple[float, ...] = KNOB_VALUES
-
-    def __post_init__(self) -> None:
-        at_least(self.name, 1, runs=self.runs)
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Task]:
         """Every agent with the value of the study, then a few with each other value."""
@@ -184,119 +125,94 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
         return [(own, seed) for seed in seeds] + others
 
     def run(self, task: Task, settings: Settings) -> tuple[float, TolmanRow]:
-        """The agent with this value of the knob and this seed."""
+        """Three blocks with one memory."""
         value, seed = task
-        agent, world = new_agent(replace(settings, information_weight=value), seed), new_world()
+        agent, world = maze.new_agent(replace(settings, information_weight=value), seed), maze.new_world()
         blocks: dict[str, tuple[TolmanRun, ...]] = {}
         for block, closed in BLOCKS.items():
-            set_closed(world, room=closed)
-            blocks[block] = tuple(agent_run(agent, world) for _ in range(self.runs))
-        after = {block: choice.route if (choice := choice_after(runs)) else None for block, runs in blocks.items()}
+            maze.set_closed(world, room=closed)
+            blocks[block] = tuple(maze.agent_run(agent, world) for _ in range(self.runs))
+        choices = {block: maze.choice_after(runs) for block, runs in blocks.items()}
+        after = {block: choice and choice.route for block, choice in choices.items()}
         return value, TolmanRow(seed, len(agent.map.places), after, blocks)
 
     def summarise(self, rows: Sequence[tuple[float, TolmanRow]]) -> Findings:
         """The counts of the study's own value, and how near each value comes to the paper's table."""
-        values = list(dict.fromkeys(value for value, _ in rows))
-        by_value = {value: [row for other, row in rows if other == value] for value in sorted(values)}
-        settings = {value: Setting.of(value, part) for value, part in by_value.items()}
-        own, agents = settings[values[0]], by_value[values[0]]
-        knob, nearest = list(settings.values()), min(settings.values(), key=lambda setting: setting.distance)
-        return Findings(
-            json={
-                "world": MAZE.name,
-                "protocol": {"start": START, "goal": GOAL, "steps_a_run": STEPS, "closed": BLOCKS},
-                "rows": agents,
-                "summary": own.blocks,
-                "paper": {block: _paper_shares(block) for block in BLOCKS},
-                "knob": {"name": KNOB, "settings": knob, "nearest_to_paper": nearest.value},
-            },
-            lines=[*_lines(own.blocks), _knob_line(knob, nearest)],
-            figures={
-                "tolman_flow": partial(_flow, agents, own.blocks),
-                "tolman_routes": partial(_routes, len(agents), own.blocks),
-                "tolman_runs": partial(_runs, agents),
-                "tolman_knob": partial(_knob, knob, nearest),
-            },
-            failed=[line for block, counts in own.blocks.items() for line in _failed(block, counts)],
-        )
+        by_value = {value: [row for other, row in rows if other == value] for value, _ in rows}
+        agents, settings = by_value[rows[0][0]], {value: Setting.of(value, part) for value, part in by_value.items()}
+        blocks, knob = settings[rows[0][0]].blocks, sorted(settings.values(), key=lambda setting: setting.value)
+        nearest = min(knob, key=lambda setting: setting.distance)
+        protocol = {"start": maze.START, "goal": maze.GOAL, "steps_a_run": maze.STEPS, "closed": BLOCKS}
+        json = {"world": maze.MAZE.name, "protocol": protocol, "rows": agents, "summary": blocks}
+        json["paper"] = {block: dict(zip(ROUTES, _paper(block), strict=False)) for block in BLOCKS}
+        json["knob"] = {"name": KNOB, "settings": knob, "nearest_to_paper": nearest.value}
+        figures = {"tolman_flow": partial(_flow, agents, blocks), "tolman_routes": partial(_routes, agents, blocks)}
+        figures |= {"tolman_runs": partial(_runs, agents), "tolman_knob": partial(_knob, knob, nearest)}
+        failed = [
+            f"{block}: goal reached in {counts.goal_reached.count} of {counts.runs} runs ({counts.why})"
+            for block, counts in blocks.items()
+            if counts.why
+        ]
+        return Findings(json, _lines(blocks, knob, nearest), figures, failed=failed)
 
 
-def paper_counts(block: str) -> tuple[int, ...]:
-    """The paper's runs by route and, last, all others."""
-    return (*PAPER[block], PAPER_RUNS - sum(PAPER[block]))
-
-
-def _by_route(routes: Sequence[int | None]) -> dict[int, Share]:
+def _shares(routes: Sequence[int | None]) -> dict[int, Share]:
     return {route: wilson(routes.count(route), len(routes)) for route in ROUTES}
 
 
-def _paper_shares(block: str) -> dict[int, Share]:
-    return {route: wilson(count, PAPER_RUNS) for route, count in zip(ROUTES, PAPER[block], strict=True)}
-
-
-def _failed(block: str, counts: Counts) -> list[str]:
-    goal, why = counts.goal_reached, _why(counts)
-    return [
-        f"{line} ({why})" if why else line for line in short(f"{block}: goal reached in", goal.count, goal.of, "runs")
-    ]
-
-
-def _why(counts: Counts) -> str:
-    return ", ".join(f"{count} {reason}" for reason, count in counts.missed.items() if count)
-
-
-def _lines(blocks: dict[str, Counts]) -> list[str]:
+def _lines(blocks: dict[str, Counts], knob: Sequence[Setting], nearest: Setting) -> list[str]:
     lines: list[str] = []
     for block, counts in blocks.items():
-        first, why = "attempts" if block == "B closed" else "reached", _why(counts)
+        missed = f"; missed: {counts.why}" if counts.why else ""
+        counted = "attempts" if block == "B closed" else "reached"
         lines += [
-            f"{block}: {counts.goal_reached.count} of {counts.runs} runs reached the goal{f'; missed: {why}' * bool(why)}",
-            f"  reached by route 1, 2, 3   {_counted(counts.reached)}",
-            f"  set out on route 1, 2, 3   {_counted(counts.attempted)}",
-            f"  the paper ({first})".ljust(29) + _counted(_paper_shares(block)),
+            f"{block}: {counts.goal_reached.count} of {counts.runs} runs reached the goal{missed}",
+            f"  reached by route 1, 2, 3   {_counted([*counts.reached.values()])}",
+            f"  set out on route 1, 2, 3   {_counted([*counts.attempted.values()])}",
+            f"  the paper ({counted})".ljust(29) + _counted(_paper(block)[:3]),
         ]
         if BLOCKS[block] is not None:
             after = counts.agents_by_first_route_after_the_block
             lines.append(f"  once it was met, {after[2]} agents tried route 2 next and {after[3]} route 3")
-    return lines
-
-
-def _counted(shares: dict[int, Share]) -> str:
-    return "  ".join(f"{s.count:3d} ({s.share:4.0%}, {s.low:.0%} to {s.high:.0%})" for s in shares.values())
-
-
-def _knob_line(knob: Sequence[Setting], nearest: Setting) -> str:
     tried = ", ".join(f"{setting.value:g}: {setting.distance:.2f}" for setting in knob)
-    return f"{KNOB} nearest to the paper's table: {nearest.value:g} (total variation by value: {tried})"
+    near = f"{KNOB} nearest to the paper's table: {nearest.value:g} (total variation by value: {tried})"
+    return [*lines, near]
+
+
+def _paper(block: str) -> list[Share]:
+    return [wilson(count, PAPER_RUNS) for count in PAPER[block]]
+
+
+def _counted(shares: Sequence[Share]) -> str:
+    return "  ".join(f"{s.count:3d} ({s.share:4.0%}, {s.low:.0%} to {s.high:.0%})" for s in shares)
 
 
 def _flow(rows: Sequence[TolmanRow], blocks: dict[str, Counts]) -> Figure:
     title = "Ways to the goal: the wider and darker, the more often (runs that reached it)"
-    figure, axes = panels(title, len(BLOCKS), (12.0, 5.2))
-    for ax, (block, closed) in zip(axes, BLOCKS.items(), strict=True):
+    figure, axes = panels(title, (1, 3), (12.0, 5.2))
+    for ax, (block, counts) in zip(axes, blocks.items(), strict=True):
         runs = [run for row in rows for run in row.blocks[block]]
         paths = [run.path[: run.reached_at + 1] for run in runs if run.reached_at is not None]
-        plot_tolman_flow(ax, paths, closed=closed)
-        ax.set_title(f"{block}: {blocks[block].goal_reached.count} of {blocks[block].runs} runs", fontsize=12)
+        maze.plot_tolman(ax, paths, closed=BLOCKS[block])
+        ax.set_title(f"{block}: {counts.goal_reached.count} of {counts.runs} runs", fontsize=12)
     return figure
 
 
-def _routes(agents: int, blocks: dict[str, Counts]) -> Figure:
-    title = f"Share of all runs by route ({agents} agent{'s' if agents > 1 else ''}), with 95 % intervals (Wilson)"
-    figure, axes = panels(title, len(BLOCKS), (12.0, 4.6), sharey=True)
+def _routes(rows: Sequence[TolmanRow], blocks: dict[str, Counts]) -> Figure:
+    title = f"Share of all runs by route ({len(rows)} agent{'s' * (len(rows) > 1)}), with 95 % intervals (Wilson)"
+    figure, axes = panels(title, (1, 3), (12.0, 4.6), sharey=True)
     for ax, (block, counts) in zip(axes, blocks.items(), strict=True):
         none = wilson(counts.runs - sum(share.count for share in counts.attempted.values()), counts.runs)
         missed = wilson(counts.runs - counts.goal_reached.count, counts.runs)
-        paper = [wilson(count, PAPER_RUNS) for count in paper_counts(block)]
-        ink, open_ = theme_of(ax).shade(0.7), {"color": theme_of(ax).paper, "hatch": "///"}
-        for shift, shares, label, style in (
-            (-0.27, [*counts.attempted.values(), none], "first set out on", {"color": SKY}),
-            (0.0, [*counts.reached.values(), missed], "goal reached on it", {"color": COLOURS[1]}),
-            (0.27, paper, "the paper", {**open_, "edgecolor": ink}),
+        paper = {"color": theme_of(ax).paper, "edgecolor": theme_of(ax).shade(0.7), "hatch": "///"}
+        for shift, label, shares, look in (
+            (-0.27, "first set out on", [*counts.attempted.values(), none], {"color": SKY}),
+            (0.0, "goal reached on it", [*counts.reached.values(), missed], {"color": COLOURS[1]}),
+            (0.27, "the paper", _paper(block), paper),
         ):
-            at, texts = [place + shift for place in range(len(shares))], [str(share.count) for share in shares]
-            plot_bars(ax, at, shares, texts=texts, width=0.25, label=label, **style)
-        ax.set_xticks(range(len(ROUTES) + 1), [*(f"route {route}" for route in ROUTES), "none"])
+            at, texts = [place + shift for place in range(4)], [str(share.count) for share in shares]
+            plot_bars(ax, at, shares, texts=texts, width=0.25, label=label, **look)
+        ax.set_xticks(range(4), [*(f"route {route}" for route in ROUTES), "none"])
         ax.set_title(f"{block} (paper: attempts)" if block == "B closed" else block, fontsize=12)
     shares_axis(axes[0], "share of the runs")
     legend_below(figure, axes[0], 3)
@@ -304,28 +220,28 @@ def _routes(agents: int, blocks: dict[str, Counts]) -> Figure:
 
 
 def _runs(rows: Sequence[TolmanRow]) -> Figure:
-    from matplotlib.patches import Patch, Rectangle
-
     title = "Every run: the route on which the goal was reached, and the number of the one first set out on if another"
-    figure, (ax,) = panels(title, 1, (12.0, 1.7 + 0.33 * len(rows)))
-    colours: dict[int | None, Any] = {**COLOURS, None: GREY}
-    length = len(rows[0].blocks["no obstacle"])
+    figure, (ax,) = panels(title, (1, 1), (12.0, 1.7 + 0.33 * len(rows)))
+    length = len(rows[0].blocks["no obstacle"]) + 0.6
     for line, row in enumerate(rows):
-        for number, run in enumerate(run for runs in row.blocks.values() for run in runs):
-            across = number + 0.6 * (number // length)
-            ax.add_patch(Rectangle((across, line + 0.08), 1.0, 0.84, facecolor=colours[run.route], edgecolor="white"))
-            if run.attempted != run.route:
-                ax.text(across + 0.5, line + 0.5, str(run.attempted or "–"), ha="center", va="center", size=9)
-    for number, block in enumerate(BLOCKS):
-        ax.text(number * (length + 0.6) + length / 2, -0.25, block, ha="center", va="bottom", size=11)
-    ax.set_xlim(-0.2, len(BLOCKS) * (length + 0.6))
-    ax.set_ylim(len(rows), -1.0)
-    ax.set_yticks([line + 0.5 for line in range(len(rows))], [f"seed {row.seed}" for row in rows])
-    ax.set_xticks([])
+        for block, runs in enumerate(row.blocks.values()):
+            at, colours = (
+                [block * length + number for number in range(len(runs))],
+                [MISSED_OR[run.route] for run in runs],
+            )
+            ax.bar(at, 0.84, 1.0, line - 0.42, color=colours, edgecolor=theme_of(ax).paper)
+            for x, run in zip(at, runs, strict=True):
+                text = str(run.attempted or "–") if run.attempted != run.route else ""
+                ax.text(x, line, text, ha="center", va="center", size=9)
+    for route, colour in MISSED_OR.items():
+        ax.bar(0, 0, color=colour, label=f"route {route}" if route else "missed")
+    for block, name in enumerate(BLOCKS):
+        ax.text((block + 0.5) * length - 0.8, -0.75, name, ha="center", va="bottom", size=11)
+    ax.set(xlim=(-0.7, 3 * length - 0.5), ylim=(len(rows) - 0.5, -1.5), xticks=[])
+    ax.set_yticks(range(len(rows)), [f"seed {row.seed}" for row in rows])
     ax.tick_params(length=0)
     ax.spines[:].set_visible(False)
-    patches = [Patch(color=c, label=f"route {route}" if route else "missed") for route, c in colours.items()]
-    figure.legend(handles=patches, loc="outside lower center", ncols=len(patches), frameon=False)
+    legend_below(figure, ax, 4)
     return figure
 
 
@@ -334,34 +250,28 @@ def _knob(knob: Sequence[Setting], nearest: Setting) -> Figure:
         f"The balance of exploring and exploiting; nearest to the paper's table: {KNOB} = {nearest.value:g} "
         f"(total variation {nearest.distance:.2f})"
     )
-    figure, axes = panels(title, len(BLOCKS), (12.0, 4.8), sharey=True)
+    figure, axes = panels(title, (1, 3), (12.0, 4.8), sharey=True)
     for ax, block in zip(axes, BLOCKS, strict=True):
         ax.axvline(knob.index(nearest), color=theme_of(ax).shade(0.12), linewidth=14, zorder=0)
         _draw_knob(ax, knob, block)
         ax.set_title(f"{block} (routes 2, 3: attempts)" if block == "B closed" else block, fontsize=12)
         ax.set_xlabel(KNOB)
-    shares_axis(axes[0], "share of the runs")
-    axes[0].set_ylim(-0.03, 1.03)
+    shares_axis(axes[0], "share of the runs", -0.03, 1.03)
     legend_below(figure, axes[0], 6)
     return figure
 
 
 def _draw_knob(ax: Axes, knob: Sequence[Setting], block: str) -> None:
-    end, ink = len(knob) - 0.25, theme_of(ax).shade(0.55)
-    looks = ((1, COLOURS[1], "o", "-"), (2, COLOURS[2], "s", "--"), (3, COLOURS[3], "^", "-."), (None, ink, "x", ":"))
-    for index, (route, colour, marker, line) in enumerate(looks):
-        if route == 1 and BLOCKS[block] is not None:
+    end, counts = len(knob) - 0.25, [setting.blocks[block] for setting in knob]
+    colours = [*COLOURS.values(), theme_of(ax).shade(0.55)]
+    for index, (colour, marker, line) in enumerate(zip(colours, "os^x", ("-", "--", "-.", ":"), strict=True)):
+        if index == 0 and BLOCKS[block] is not None:
             continue
-        counts = [setting.blocks[block] for setting in knob]
         values = [wilson(part.compared(block)[index], part.runs) for part in counts]
-        at = [place + 0.06 * (index - 1.5) for place in range(len(knob))]
-        look: dict[str, Any] = {"color": colour, "marker": marker, "markersize": 6}
-        shown = {"label": f"route {route}" if route else "none of these", "linestyle": line}
-        ax.errorbar(at, [v.share for v in values], errors(values), capsize=2, elinewidth=0.8, **shown, **look)
-        ax.plot(end, paper_counts(block)[index] / PAPER_RUNS, **{**look, "markersize": 10}, clip_on=False)
-    goal = [setting.blocks[block].goal_reached.share for setting in knob]
+        at, name = [place + 0.06 * (index - 1.5) for place in range(len(knob))], f"route {index + 1}"
+        look: dict[str, Any] = {"color": colour, "marker": marker}
+        plot_line(ax, at, values, label=name if index < 3 else "none of these", linestyle=line, elinewidth=0.8, **look)
+        ax.plot(end, PAPER[block][index] / PAPER_RUNS, markersize=10, clip_on=False, **look)
+    goal = [part.goal_reached.share for part in counts]
     ax.plot(range(len(knob)), goal, color=theme_of(ax).ink, linewidth=1.0, label="goal reached")
     ax.set_xticks([*range(len(knob)), end], [*(f"{setting.value:g}" for setting in knob), "paper"])
-
-
-STUDY = Tolman()

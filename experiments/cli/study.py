@@ -1,0 +1,84 @@
+"""`cogmap study`: a study of the paper, or all; rows, tables, figures and a report in a folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from .options import Dask, Jobs, Seed
+
+if TYPE_CHECKING:
+    from ..studies import Outcome
+
+Name = Annotated[
+    str,
+    typer.Argument(
+        metavar="NAME",
+        help="exploration, rooms, growth, cost, localisation, goals, donut, tolman, martinet or insight; or all.",
+        show_default=False,
+    ),
+]
+Agents = Annotated[
+    int | None,
+    typer.Option(
+        "--runs",
+        "--agents",
+        min=1,
+        help="How many agents (of each kind) take part; the study's own number unless given.",
+    ),
+]
+Out = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="Folder to write in; study-NAME in this folder unless given.")
+]
+LookAhead = Annotated[
+    int | None, typer.Option(min=1, help="L: steps that a policy looks ahead; the study's own unless given.")
+]
+SOME_FAILED = 1
+
+
+def study_command(
+    name: Name,
+    runs: Agents = None,
+    seed: Seed = 0,
+    out: Out = None,
+    look_ahead: LookAhead = None,
+    jobs: Jobs = 1,
+    dask: Dask = None,
+) -> None:
+    """Run a study of the paper; rows (JSON), tables (CSV), figures and a report (Markdown, HTML) are written.
+
+    exploration, rooms and growth keep every finished run in DIR/cells.jsonl: the same command goes on from there.
+    """
+    from ..executors import workers
+    from ..studies import EVERYTHING, Asked, run_studies, run_study, study_named
+    from .group import INTERRUPTED, fail
+    from .progress import counting
+    from .tables import say
+
+    study = None if name == EVERYTHING else study_named(name)
+    folder, asked = out or Path(f"study-{name}"), Asked(runs, seed, look_ahead)
+    try:
+        with workers(jobs=jobs, dask=dask) as executor:
+            if study is not None:
+                _show(run_study(study, folder, asked, executor=executor, counter=counting))
+                return
+            outcomes, written = run_studies(folder, asked, executor=executor, counter=counting, on_outcome=_show)
+    except KeyboardInterrupt as stop:
+        if not stop.args:
+            raise
+        again = "the same command goes on from there"
+        fail(f"interrupted; the finished runs are kept in {stop.args[0]}; {again}", code=INTERRUPTED)
+    say(*(f"written: {path}" for path in written))
+    if any(outcome.failure for outcome in outcomes):
+        raise typer.Exit(SOME_FAILED)
+
+
+def _show(outcome: Outcome) -> None:
+    from .tables import say
+
+    if outcome.failure:
+        say(f"{outcome.study.name} failed: {outcome.failure}", style="bold red")
+    else:
+        say(*outcome.lines, *(f"written: {path}" for path in outcome.written), title=outcome.study.name)
