@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .figures import legend_below, panels, plot_bars, plot_flow, plot_ways, shares_axis
+from .figures import legend_below, panels, plot_bars
 from .intervals import Interval, Share, bootstrap, wilson
 from .running import Asked, Outcome, run_studies, run_study
 from .study import EVERYTHING, Findings, Study, failed_seeds, studies, study_named
@@ -22,11 +22,8 @@ __all__ = [
     "legend_below",
     "panels",
     "plot_bars",
-    "plot_flow",
-    "plot_ways",
     "run_studies",
     "run_study",
-    "shares_axis",
     "studies",
     "study_named",
     "wilson",

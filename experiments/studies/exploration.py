@@ -13,23 +13,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 from .. import CSCG, Row
-from .grid import (
-    COMPLETE,
-    COUNTED,
-    LEARN,
-    LEGEND,
-    LOOKS,
-    MARK,
-    NONE,
-    Explorations,
-    Grid,
-    Steps,
-    factor_text,
-    steps_figure,
-)
-from .intervals import Interval, bootstrap
+from .grid import COMPLETE, COUNTED, LEARN, LEGEND, LOOKS, NONE, Explorations, Grid, Steps, factor_text, steps_figure
+from .intervals import bootstrap
 from .study import Findings
 from .tables import Table, Value
 
@@ -71,33 +59,6 @@ AUTHORS = _by_model(
 FIGURE = "Steps to learn every transition (mean, 95 % bootstrap interval)"
 
 
-@dataclass(frozen=True, slots=True)
-class Factor:
-    """How many times the steps of ours the best CSCG needs to learn a maze."""
-
-    world: str
-    best: str  # the CSCG with the smallest mean
-    ratio: Interval | None  # a lower bound where the best is censored, None where ours is
-    censored: bool
-    steps_to_learn: Steps  # ours
-    steps_to_complete: Steps  # ours, until it had visited every room as well
-    best_steps_to_learn: Steps
-    paper_ratio: float | None  # the same in the paper's table; None where it has no such maze
-
-    @classmethod
-    def of(cls, world: str, best: str, learned: Steps, completed: Steps, its: Steps) -> Factor:
-        """Run by run with the same seeds."""
-        ratio = None if learned.censored else bootstrap(its.values, learned.values)
-        theirs = [PAPER[world, model][0] for model in CSCG if (world, model) in PAPER]
-        paper = round(min(theirs) / PAPER[world, "cogmap"][0], 1) if theirs else None
-        return cls(world, best, ratio, its.censored, learned, completed, its, paper)
-
-    @property
-    def text(self) -> str:
-        """The ratio."""
-        return factor_text(self.ratio, ".1f", censored=self.censored)
-
-
 @dataclass(frozen=True)
 class Exploration(Explorations):
     """Steps to learn a maze
@@ -132,48 +93,61 @@ class Exploration(Explorations):
     def summarise(self, rows: Sequence[Row]) -> Findings:
         """The paper's table; ours beside the published; how many times our steps the best CSCG needs."""
         grid, both = self.grid(rows), self.grid(rows, COMPLETE)
-        best = {world: agent for world in self.worlds if (agent := self.best(grid, world))}
-        factors = [
-            Factor.of(world, agent, grid[world, "cogmap"], both[world, "cogmap"], grid[world, agent])
-            for world, agent in best.items()
-        ]
+        factors = [_factor(grid, both, world, best) for world in self.worlds if (best := self.best(grid, world))]
         means = {key: figure[0] for key, figure in PAPER.items()}
-        found = self.found(rows, grid, *_tables(grid, factors), more=[_published(key) for key in grid])
-        found["json"]["ratios"] = factors
+        found = self.found(rows, grid, *_tables(grid, factors))
+        summary = [{**line, **_published(line["world"], line["agent"])} for line in found["json"]["summary"]]
+        found["json"] |= {"summary": summary, "ratios": factors}
         figures = {"exploration_steps": partial(steps_figure, FIGURE, grid, self.cap, means, "the paper's mean")}
         return Findings(lines=_lines(grid, factors), figures=figures, **found)
 
 
-def _tables(grid: Grid, factors: Sequence[Factor]) -> list[Table]:
+def _factor(grid: Grid, both: Grid, world: str, best: str) -> dict[str, Any]:
+    """How many times the steps of ours the best CSCG, the one with the smallest mean, needs to learn a maze.
+
+    The ratio is a lower bound where the best is censored, None where ours is.
+    """
+    ours, its = grid[world, "cogmap"], grid[world, best]
+    theirs = [PAPER[world, model][0] for model in CSCG if (world, model) in PAPER]
+    return {
+        "world": world,
+        "best": best,
+        "ratio": None if ours.censored else bootstrap(its.values, ours.values),
+        "censored": its.censored,
+        "steps_to_learn": ours,
+        "steps_to_complete": both[world, "cogmap"],
+        "best_steps_to_learn": its,
+        "paper_ratio": round(min(theirs) / PAPER[world, "cogmap"][0], 1) if theirs else None,
+    }
+
+
+def _tables(grid: Grid, factors: Sequence[dict[str, Any]]) -> list[Table]:
     by_maze: dict[str, dict[str, Value]] = {}
+    compared: list[list[Value]] = []
+    ratios: list[list[Value]] = []
     for (world, agent), steps in grid.items():
         by_maze.setdefault(world, {"maze": world})[LOOKS[agent][0]] = _own(agent, steps)
+        counted = NONE if agent == "oracle" else f"{steps.got_there}/{steps.runs}"
+        published = (_text(figures.get((world, agent))) for figures in (PAPER, AUTHORS))
+        compared.append([world, LOOKS[agent][0], steps.mean_text(), steps.interval_text(), counted, *published])
+    for one in factors:
+        own = (one[name].counted_text() for name in ("steps_to_learn", "steps_to_complete"))
+        best, ratio = one["best_steps_to_learn"].counted_text(), factor_text(one["ratio"], ".1f", one["censored"])
+        ratios.append([one["world"], *own, LOOKS[one["best"]][0], best, ratio, one["paper_ratio"]])
     learned = f"Steps to learn, as in the paper's table; mean ± standard deviation (learned of runs). {LEGEND}."
-    compared = f"Steps to learn beside the published; interval of the mean by bootstrap. {LEGEND}."
+    beside = f"Steps to learn beside the published; interval of the mean by bootstrap. {LEGEND}."
     times = f"How many times the steps of cogmap the best CSCG needs, with 95 % interval. {LEGEND}."
     heads = ("maze", "model", "mean ± sd", "95 % interval", "learned", "paper", "authors' code")
-    ratios = ("maze", "cogmap learned", "cogmap complete", "best CSCG", "its steps", "ratio", "ratio in the paper")
+    names = ("maze", "cogmap learned", "cogmap complete", "best CSCG", "its steps", "ratio", "ratio in the paper")
     return [
         Table.of("exploration_table", list(by_maze.values()), learned),
-        Table("exploration_compared", heads, [_compared(key, steps) for key, steps in grid.items()], compared),
-        Table("exploration_ratio", ratios, [_factor(factor) for factor in factors], times),
+        Table("exploration_compared", heads, compared, beside),
+        Table("exploration_ratio", names, ratios, times),
     ]
 
 
 def _own(agent: str, steps: Steps) -> str:
     return steps.mean_text() if agent == "oracle" else steps.counted_text()
-
-
-def _compared(key: tuple[str, str], steps: Steps) -> tuple[Value, ...]:
-    count = NONE if key[1] == "oracle" else f"{steps.got_there}/{steps.runs}"
-    interval = f"{steps.low:.1f} to {steps.high:.1f}" + MARK * steps.censored
-    return key[0], LOOKS[key[1]][0], steps.mean_text(), interval, count, _text(PAPER.get(key)), _text(AUTHORS.get(key))
-
-
-def _factor(factor: Factor) -> tuple[Value, ...]:
-    own = (steps.counted_text() for steps in (factor.steps_to_learn, factor.steps_to_complete))
-    best = factor.best_steps_to_learn.counted_text()
-    return factor.world, *own, LOOKS[factor.best][0], best, factor.text, factor.paper_ratio
 
 
 def _text(figure: Figure | None) -> str:
@@ -183,16 +157,19 @@ def _text(figure: Figure | None) -> str:
     return f"{figure[0]:g}{spread}" + (f" ({figure[2]}/{figure[3]})" if len(figure) == 4 else "")
 
 
-def _lines(grid: Grid, factors: Sequence[Factor]) -> list[str]:
+def _lines(grid: Grid, factors: Sequence[dict[str, Any]]) -> list[str]:
     lines = [f"steps to learn, mean ± standard deviation (learned of runs); {LEGEND}"]
     for (world, agent), steps in grid.items():
         lines += [world] if agent == "oracle" else []
         beside = f"  paper {_text(PAPER[world, agent])}" if (world, agent) in PAPER else ""
         lines.append(f"  {LOOKS[agent][0]:<17}{_own(agent, steps):<46}{beside}".rstrip())
-    return lines + [f"{one.world}: best CSCG ({LOOKS[one.best][0]}) over cogmap {one.text}" for one in factors]
+    for one in factors:
+        text = factor_text(one["ratio"], ".1f", one["censored"])
+        lines.append(f"{one['world']}: best CSCG ({LOOKS[one['best']][0]}) over cogmap {text}")
+    return lines
 
 
-def _published(key: tuple[str, str]) -> dict[str, float | None]:
+def _published(*key: str) -> dict[str, float | None]:
     paper, authors = ((*figures.get(key, ()), *[None] * 4) for figures in (PAPER, AUTHORS))
     names = ("authors_mean", "authors_std", "authors_learned", "authors_runs")
     return {"paper_mean": paper[0], "paper_std": paper[1], **dict(zip(names, authors, strict=False))}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -46,35 +46,6 @@ class GoalRun:
         return {**own, **self.run.to_dict()}
 
 
-@dataclass(frozen=True, slots=True)
-class Summary:
-    """What some runs come to; steps and ratio are of those that reached the goal."""
-
-    runs: int
-    failed: int  # never chose to stay on the goal, or never knew the maze
-    steps: Interval | None  # until the agent chose to stay on the goal
-    to_stand: Interval | None  # until it first stood there
-    shortest: Interval | None  # of the shortest path
-    frontier: Interval | None  # of nearest-frontier search until it first stood there; None with a map
-    ratio: Interval | None  # total of `steps` over the total of `shortest`; None where that is 0
-
-    @classmethod
-    def of(cls, rows: Sequence[GoalRun], **those: object) -> Summary:
-        """What the rows come to whose fields are as in `those`."""
-        every = [row.run for row in rows if all(getattr(row, name) == value for name, value in those.items())]
-        there = [run for run in every if run.reached]
-        steps, shortest = [run.steps or 0 for run in there], [run.shortest or 0 for run in there]
-        return cls(
-            runs=len(every),
-            failed=len(every) - len(there),
-            steps=bootstrap(steps),
-            to_stand=bootstrap([run.steps_to_stand or 0 for run in there]),
-            shortest=bootstrap(shortest),
-            frontier=bootstrap([run.frontier_steps for run in there if run.frontier_steps is not None]),
-            ratio=bootstrap(steps, shortest),
-        )
-
-
 class Goals(Study[Task, GoalRun]):
     """Steps to a goal
 
@@ -101,8 +72,8 @@ class Goals(Study[Task, GoalRun]):
 
     def summarise(self, rows: Sequence[GoalRun]) -> Findings:
         """Means by maze and by distance."""
-        summary = {(world, known): Summary.of(rows, world=world, known=known) for world in MAZES for known in HOW}
-        by_world = [{"world": world, "known": known, **asdict(part)} for (world, known), part in summary.items()]
+        summary = {(world, known): summarised(rows, world=world, known=known) for world in MAZES for known in HOW}
+        by_world = [{"world": world, "known": known, **part} for (world, known), part in summary.items()]
         lines, failed = _lines(rows, summary), list[str]()
         for row in rows:
             if not row.run.reached:
@@ -113,6 +84,26 @@ class Goals(Study[Task, GoalRun]):
         return Findings({"weight": WEIGHT, "runs": rows, "summary": by_world}, lines, figures, failed=failed)
 
 
+def summarised(rows: Sequence[GoalRun], **those: object) -> dict[str, Any]:
+    """What the rows come to whose fields are as in `those`.
+
+    Failed are those that never chose to stay on the goal, or never knew the maze; the other figures are of those that
+    reached it. The ratio is that of all steps to all shortest paths.
+    """
+    every = [row.run for row in rows if all(getattr(row, name) == value for name, value in those.items())]
+    there = [run for run in every if run.reached]
+    steps, shortest = [run.steps or 0 for run in there], [run.shortest or 0 for run in there]
+    return {
+        "runs": len(every),
+        "failed": len(every) - len(there),
+        "steps": bootstrap(steps),
+        "to_stand": bootstrap([run.steps_to_stand or 0 for run in there]),
+        "shortest": bootstrap(shortest),
+        "frontier": bootstrap([run.frontier_steps for run in there if run.frontier_steps is not None]),
+        "ratio": bootstrap(steps, shortest),
+    }
+
+
 def draw_goal(maze: Maze, seed: int) -> Label:
     """One of the labels of the maze; start and agent of the same seed have streams of their own."""
     labels = sorted(set(maze.sights.values()), key=lambda label: (str(type(label)), label))
@@ -120,18 +111,18 @@ def draw_goal(maze: Maze, seed: int) -> Label:
     return labels[int(np.random.default_rng(stream).integers(len(labels)))]
 
 
-def _lines(rows: Sequence[GoalRun], summary: dict[tuple[str, bool], Summary]) -> list[str]:
+def _lines(rows: Sequence[GoalRun], summary: dict[tuple[str, bool], dict[str, Any]]) -> list[str]:
     """Steps in every maze, with 95 % intervals."""
     lines: list[str] = []
     for known, title in HOW.items():
         heads = {"to_stand": "first there", "steps": "stays", "frontier": "nearest frontier", "shortest": "shortest"}
         shown = {what: head for what, head in {**heads, "ratio": "ratio"}.items() if not known or what != "frontier"}
         groups = {world: summary[world, known] for world in MAZES}
-        groups |= {name: Summary.of(rows, known=known, aliased=aliased) for aliased, name in ALIASED.items()}
+        groups |= {name: summarised(rows, known=known, aliased=aliased) for aliased, name in ALIASED.items()}
         cells = {"": ["reached", *shown.values()]}
         for name, part in groups.items():
-            means = [_text(getattr(part, what)) for what in shown]
-            cells[name] = [f"{part.runs - part.failed}/{part.runs}", *means]
+            means = [_text(part[what]) for what in shown]
+            cells[name] = [f"{part['runs'] - part['failed']}/{part['runs']}", *means]
         lines.append(f"{title}: steps, mean [95 %]")
         lines += [f"  {name:<14}{x:>9}" + "".join(f"{y:>21}" for y in rest) for name, (x, *rest) in cells.items()]
     return lines
@@ -148,7 +139,7 @@ def _by_distance(rows: Sequence[GoalRun]) -> Figure:
     for ax, known in zip(axes, HOW, strict=True):
         marks = ("shortest",) if known else ("shortest", "to_stand", "frontier")
         for shift, (aliased, name), colour in zip((-0.2, 0.2), ALIASED.items(), (BLUE, ORANGE), strict=True):
-            groups = [Summary.of(part, known=known, aliased=aliased) for part in near]
+            groups = [summarised(part, known=known, aliased=aliased) for part in near]
             _draw_bars(ax, shift, groups, "steps", width=0.38, color=colour, label=name)
             _draw_marks(ax, shift, groups, marks, named=not aliased)
         ax.set_xticks(range(len(near)), list(DISTANCES))
@@ -157,7 +148,7 @@ def _by_distance(rows: Sequence[GoalRun]) -> Figure:
     return figure
 
 
-def _by_world(summary: dict[tuple[str, bool], Summary]) -> Figure:
+def _by_world(summary: dict[tuple[str, bool], dict[str, Any]]) -> Figure:
     figure, axes = panels("Steps to the goal, by maze (bars: mean, 95 % bootstrap)", (1, 2), (11.0, 4.6))
     stays, stands = ("steps", "agent stays", BLUE), ("to_stand", MARKS["to_stand"][1], GREEN)
     series = {True: [stays], False: [stands, stays, ("frontier", MARKS["frontier"][1], GREY)]}
@@ -172,23 +163,25 @@ def _by_world(summary: dict[tuple[str, bool], Summary]) -> Figure:
     return figure
 
 
-def _draw_bars(ax: Axes, shift: float, groups: Sequence[Summary], what: str, **style: Any) -> None:
-    plot_bars(ax, [i + shift for i in range(len(groups))], [getattr(group, what) for group in groups], **style)
+def _draw_bars(ax: Axes, shift: float, groups: Sequence[dict[str, Any]], what: str, **style: Any) -> None:
+    plot_bars(ax, [i + shift for i in range(len(groups))], [group[what] for group in groups], **style)
 
 
-def _draw_marks(ax: Axes, shift: float, groups: Sequence[Summary], marks: Sequence[str], *, named: bool = True) -> None:
+def _draw_marks(
+    ax: Axes, shift: float, groups: Sequence[dict[str, Any]], marks: Sequence[str], *, named: bool = True
+) -> None:
     """Marks over the bars, and how many failed."""
     for what in marks:
         marker, name, size, colour = MARKS[what]
-        values = [value.value if (value := getattr(group, what)) else np.nan for group in groups]
+        values = [value.value if (value := group[what]) else np.nan for group in groups]
         look: dict[str, Any] = {"marker": marker, "markersize": size, "markerfacecolor": colour, "linestyle": "none"}
         look |= {"markeredgecolor": theme_of(ax).ink, "markeredgewidth": size / 7.0, "label": name if named else None}
         ax.plot([i + shift for i in range(len(groups))], values, zorder=4, **look)
     text: dict[str, Any] = {"textcoords": "offset points", "color": VERMILION, "fontsize": 7, "rotation": 90}
     for i, group in enumerate(groups):
-        if group.failed:
-            top = 0.0 if group.steps is None else group.steps.high
-            ax.annotate(f"{group.failed} of {group.runs} failed", (i + shift, top), (0, 4), ha="center", **text)
+        if group["failed"]:
+            top = group["steps"].high if group["steps"] else 0.0
+            ax.annotate(f"{group['failed']} of {group['runs']} failed", (i + shift, top), (0, 4), ha="center", **text)
 
 
 def _finish(ax: Axes, known: bool) -> None:

@@ -85,6 +85,10 @@ class Steps:
         """The mean, and how many got there of how many."""
         return self.mean_text() + ("" if self.censored else f" ({self.got_there}/{self.runs})")
 
+    def interval_text(self) -> str:
+        """The 95 % interval of `bound`."""
+        return f"{self.low:.1f} to {self.high:.1f}" + MARK * self.censored
+
     def text(self) -> str:
         """Mean, count and interval."""
         return f"{self.counted_text()} [{self.low:.1f}, {self.high:.1f}]"
@@ -158,22 +162,16 @@ class Explorations(Study[Cell, Row]):
         found = [agent for agent in self.models if agent in CSCG]
         return min(found, key=lambda agent: grid[world, agent].bound, default=None)
 
-    def found(
-        self, rows: Sequence[Row], grid: Grid, *shown: Table, more: Sequence[Mapping[str, Any]] = ()
-    ) -> dict[str, Any]:
-        """JSON, tables and failures as `Findings` have them: protocol, every run, the figures, and what is `shown`.
-
-        `more`: further values of each line of the summary, in the JSON alone.
-        """
+    def found(self, rows: Sequence[Row], grid: Grid, *shown: Table) -> dict[str, Any]:
+        """JSON, tables and failures as `Findings` have them: protocol, every run, the figures, and what is `shown`."""
         cscg = CscgSettings().to_dict() if {*self.models} & {*CSCG} else None
         protocol = {"worlds": self.worlds, "agents": self.models, "growths": self.growths}
         protocol |= {"max_steps": self.cap, "cscg_settings": cscg}
         summary = [{"world": key[0], self.by: key[1], **steps.to_dict()} for key, steps in grid.items()]
-        wider = [{**line, **further} for line, further in zip(summary, more or [{}] * len(summary), strict=True)]
         caption = f"{self.what}: figures by maze and {'model' if self.by == 'agent' else self.by}"
         runs = Table.of(self.name, [flat(row.to_dict()) for row in rows], "every run", shown=False)
         return {
-            "json": {"protocol": protocol, "rows": rows, "summary": wider},
+            "json": {"protocol": protocol, "rows": rows, "summary": summary},
             "tables": [runs, *shown, Table.of(f"{self.name}_summary", summary, caption, shown=False)],
             "failed": [line for key, every in self._runs(rows).items() for line in self._failed(*key, every)],
         }
@@ -193,7 +191,7 @@ class Explorations(Study[Cell, Row]):
         return runs
 
 
-def factor_text(ratio: Interval | None, form: str, *, censored: bool) -> str:
+def factor_text(ratio: Interval | None, form: str, censored: bool) -> str:
     """A ratio and its interval, marked as a lower bound where it is one; `form` is that of a number."""
     if ratio is None:
         return NONE

@@ -23,32 +23,23 @@ GOAL: Label = 0
 WEIGHT = 3.0  # log preference of the goal, in nats
 MOST = 40  # moves after which the agent has not found the goal
 CANDIDATE = 0.1  # a place that holds as much of the belief is one where the agent may be
-SHOWN = ("told_sights", "silent_doors")  # conditions of which the first agent is shown step by step
+SHOWN = ("silent_doors", "told_sights")  # conditions of which the first agent is shown step by step
 MOST_ROWS = 8
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """What the agent has to go by."""
-
-    name: str
-    told: bool  # that it was moved: P(moved) = 1 at the first observation after; if not, it has its prior alone
-    doors: bool  # whether those it senses are evidence of where it is; they always show which ways are open
-    look: dict[str, Any]  # of its line
-
-    @property
-    def text(self) -> str:
-        """The condition in words."""
-        return f"{'told' if self.told else 'not told'}, {'sights and doors' if self.doors else 'sights alone'}"
-
-
-CONDITIONS = (
-    Condition("silent_doors", False, True, {"color": BLUE, "marker": "o"}),
-    Condition("silent_sights", False, False, {"color": SKY, "linestyle": "--", "marker": "s"}),
-    Condition("told_doors", True, True, {"color": GREEN, "linestyle": ":", "marker": "^"}),
-    Condition("told_sights", True, False, {"color": VERMILION, "linestyle": "-.", "marker": "D"}),
-)
-"""The last is the paper's: its model has no likelihood of doors."""
+CONDITIONS: dict[str, dict[str, Any]] = {
+    "silent_doors": {"color": BLUE, "marker": "o"},
+    "silent_sights": {"color": SKY, "linestyle": "--", "marker": "s"},
+    "told_doors": {"color": GREEN, "linestyle": ":", "marker": "^"},
+    "told_sights": {"color": VERMILION, "linestyle": "-.", "marker": "D"},
+}
+"""What the agent has to go by, and the look of its line. Told: that it was moved, by P(moved) = 1 at the first
+observation after; if not, it has its prior alone. Doors: those it senses are evidence of where it is (they always show
+which ways are open). Told by sights alone is the paper's: its model has no likelihood of doors."""
+TEXTS = {
+    name: f"{'told' if name.startswith('told') else 'not told'}, sights {'alone' if name.endswith('sights') else 'and doors'}"
+    for name in CONDITIONS
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +114,7 @@ class Localisation(Study[int, LocalisationRow]):
 
     def summarise(self, rows: Sequence[LocalisationRow]) -> Findings:
         """Counts and means over the agents that explored, by condition."""
-        trials = {one.name: [t for row in rows for t in row.trials if t.condition == one.name] for one in CONDITIONS}
+        trials = {name: [t for row in rows for t in row.trials if t.condition == name] for name in CONDITIONS}
         conditions = {name: _summary(part) for name, part in trials.items()}
         goals = [room for room in MAZE.rooms if MAZE.sights[room] == GOAL]
         summary = {
@@ -133,9 +124,8 @@ class Localisation(Study[int, LocalisationRow]):
             "conditions": conditions,
         }
         protocol = {"moved_to": FOOT, "goal": GOAL, "weight": WEIGHT, "candidate": CANDIDATE, "max_moves": MOST}
-        protocol["conditions"] = {condition.name: condition.text for condition in CONDITIONS}
-        shown = [one for one in CONDITIONS if one.name in SHOWN and trials[one.name]]
-        ways = {f"localisation_{one.name}": partial(_way, trials[one.name][0], one.text) for one in shown}
+        protocol["conditions"] = TEXTS
+        ways = {f"localisation_{name}": partial(_way, trials[name][0]) for name in SHOWN if trials[name]}
         failed = failed_seeds("did not explore the maze", rows, lambda row: row.steps_to_explore is None)
         for name, part in conditions.items():
             for what in ("localised", "reached", "map_intact"):
@@ -146,10 +136,10 @@ class Localisation(Study[int, LocalisationRow]):
         return Findings(json, _lines(summary), figures, failed=failed)
 
 
-def _trial(session: Session[Agent], condition: Condition) -> Trial:
-    own = session.agent.settings
-    floor = own.priors.door_floor if condition.doors else 0.5  # every door as likely open as blocked
-    world, agent = MazeEnv(MAZE), _with(session.agent, floor, 1.0 if condition.told else own.filter.displacement)
+def _trial(session: Session[Agent], condition: str) -> Trial:
+    own, told = session.agent.settings, condition.startswith("told")
+    floor = own.priors.door_floor if condition.endswith("doors") else 0.5  # every door as likely open as blocked
+    world, agent = MazeEnv(MAZE), _with(session.agent, floor, 1.0 if told else own.filter.displacement)
     agent.prefer({GOAL: WEIGHT})
     steps: list[LocalisationStep] = []
     reached = False
@@ -161,12 +151,12 @@ def _trial(session: Session[Agent], condition: Condition) -> Trial:
         return reached
 
     first = run(world, agent, steps=1, options={"start": FOOT}, watch=note)
-    if condition.told:
+    if told:
         agent = _with(agent, floor, own.filter.displacement)
     if not reached:
         run(world, agent, steps=MOST, begin=first.end, watch=note)
     return Trial(
-        condition=condition.name,
+        condition=condition,
         steps=tuple(steps),
         reached=reached,
         steps_to_localise=next((t for t, step in enumerate(steps) if step.certain and step.right), None),
@@ -241,11 +231,10 @@ def _lines(summary: dict[str, Any]) -> list[str]:
         f"{summary['explored']} of {summary['agents']} agents explored {MAZE.name}; moved to {FOOT}, sight {GOAL} "
         f"preferred, {summary['shortest']} moves away"
     ]
-    for condition in CONDITIONS:
-        part = summary["conditions"][condition.name]
+    for condition, part in summary["conditions"].items():
         first = ", ".join(f"{part[name]} {name}" for name in ("split", "right", "wrong"))
         lines += [
-            f"{condition.text}{' (the paper)' if condition.name == 'told_sights' else ''}:",
+            f"{TEXTS[condition]}{' (the paper)' if condition == 'told_sights' else ''}:",
             f"  after the first sight {first}; {number(part['mean_candidates_first'])} rooms to choose from (mean)",
             f"  certain of the right room after {spread(part, 'steps_to_localise')} steps "
             f"({part['localised']}/{part['trials']}), "
@@ -256,13 +245,13 @@ def _lines(summary: dict[str, Any]) -> list[str]:
     return lines
 
 
-def _way(trial: Trial, condition: str) -> Figure:
+def _way(trial: Trial) -> Figure:
     from matplotlib.figure import Figure
 
     steps = trial.steps[:MOST_ROWS]
     names = {room: f"{sight}\n{room[0]}, {room[1]}" for room, sight in MAZE.sights.items()}
     figure = Figure(figsize=(11.0, 2.35 * len(steps) + 0.9), layout="constrained")
-    figure.suptitle(f"The first agent, moved to the foot of the T: {condition}", fontsize=13)
+    figure.suptitle(f"The first agent, moved to the foot of the T: {TEXTS[trial.condition]}", fontsize=13)
     halves = figure.subfigures(1, 2, width_ratios=(1.6, 1.0))  # so that the mazes are not cut to the bars
     axes = [half.subplots(len(steps), 1, squeeze=False).ravel() for half in halves]
     for count, (step, bars, maze) in enumerate(zip(steps, *axes, strict=True)):
@@ -280,15 +269,15 @@ def _way(trial: Trial, condition: str) -> Figure:
 def _by_step(trials: dict[str, list[Trial]]) -> Figure:
     from matplotlib.ticker import MaxNLocator
 
-    count = len(trials[CONDITIONS[0].name])
+    count = len(trials["told_sights"])
     title = f"Mean over {count} agent{'s' * (count > 1)}, with 95 % intervals (bootstrap)"
     figure, axes = panels(title, (1, 2), (11.0, 4.6))
     labels = {"entropy": "entropy of Q(s) (nats)", "candidates": f"rooms with {CANDIDATE:.0%} or more"}
     for ax, (name, label) in zip(axes, labels.items(), strict=True):
-        for index, condition in enumerate(CONDITIONS):
-            values = by_step(trials[condition.name], name)
+        for index, (condition, look) in enumerate(CONDITIONS.items()):
+            values = by_step(trials[condition], name)
             moves = [step + 0.05 * (index - 1.5) for step in range(len(values))]  # equal ones would hide one another
-            plot_line(ax, moves, values, label=condition.text, markersize=5, **condition.look)
+            plot_line(ax, moves, values, label=TEXTS[condition], markersize=5, **look)
         ax.set(xlabel="moves since it was put at the foot of the T", ylabel=label)
         ax.set_ylim(bottom=-0.04 * ax.get_ylim()[1])
         ax.xaxis.set_major_locator(MaxNLocator(integer=True))

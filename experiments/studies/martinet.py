@@ -70,17 +70,6 @@ class MartinetRow:
         return cls(seed, counts, tuple(runs))
 
 
-@dataclass(frozen=True, slots=True)
-class Preference:
-    """Whether one route is taken more often than another."""
-
-    condition: str
-    more: int  # the route that is expected more often
-    less: int
-    difference: Interval | None  # of their shares, mean of the agents; None if neither was ever taken
-    p_value: float | None  # one-sided Wilcoxon signed-rank test over the agents; None with fewer than two
-
-
 @dataclass(frozen=True)
 class Martinet(Study[int, MartinetRow]):
     """Detours after forced training
@@ -172,21 +161,27 @@ def _of_all(rows: Sequence[MartinetRow], condition: str, values: Sequence[int]) 
     return bootstrap(values, [sum(row.counts[condition][route] for route in CONDITIONS[condition]) for row in rows])
 
 
-def _preference(rows: Sequence[MartinetRow], condition: str, more: int, less: int) -> Preference:
+def _preference(rows: Sequence[MartinetRow], condition: str, more: int, less: int) -> dict[str, Any]:
+    """How much more often one route is taken than the other: difference of the shares, mean of the agents.
+
+    It is None if neither was ever taken; p is that of Wilcoxon's signed-rank test over the agents, one-sided, None with
+    fewer than two.
+    """
     differences = [row.counts[condition][more] - row.counts[condition][less] for row in rows]
     test: Any = stats.wilcoxon(differences, alternative="greater") if any(differences) else None
     p_value = None if len(rows) < 2 else 1.0 if test is None else float(test.pvalue)
-    return Preference(condition, more, less, _of_all(rows, condition, differences), p_value)
+    difference = _of_all(rows, condition, differences)
+    return {"condition": condition, "more": more, "less": less, "difference": difference, "p_value": p_value}
 
 
-def _lines(shares: Shares, preferences: Sequence[Preference]) -> list[str]:
+def _lines(shares: Shares, preferences: Sequence[dict[str, Any]]) -> list[str]:
     lines: list[str] = []
     for name, part in shares.items():
         texts = ", ".join(f"route {route} {_text(share)}" for route, share in part.items())
         lines.append(f"{name}: {texts} (95 % intervals)")
     for part in preferences:
-        p = "-" if part.p_value is None else f"{part.p_value:.2g}"
-        lines.append(f"{part.condition}: route {part.more} over {part.less} by {_text(part.difference)}, p = {p}")
+        p, by = "-" if part["p_value"] is None else f"{part['p_value']:.2g}", _text(part["difference"])
+        lines.append(f"{part['condition']}: route {part['more']} over {part['less']} by {by}, p = {p}")
     return [*lines, "Martinet et al. 2011, 40 simulated animals: the same order in all four, each p < 0.0001"]
 
 
@@ -194,7 +189,7 @@ def _text(interval: Interval | None) -> str:
     return "-" if interval is None else f"{interval.value:.0%} ({interval.low:.0%} to {interval.high:.0%})"
 
 
-def _figure(agents: int, days: int, shares: Shares, preferences: Sequence[Preference]) -> Figure:
+def _figure(agents: int, days: int, shares: Shares, preferences: Sequence[dict[str, Any]]) -> Figure:
     who, long = f"{agents} agent{'s' * (agents > 1)}", f"{days} day{'s' * (days > 1)}"
     title = f"Routes chosen by {who} after {long} of training, mean with 95 % intervals (bootstrap over agents)"
     widths = [len(part) for part in shares.values()]
@@ -205,16 +200,16 @@ def _figure(agents: int, days: int, shares: Shares, preferences: Sequence[Prefer
         plot_bars(ax, range(len(part)), list(part.values()), texts=texts, width=0.65, color=there)
         ax.set_xticks(range(len(part)), [f"route {route}" for route in part])
         ax.set_title(TITLES[name], fontsize=12)
-        for number, preference in enumerate(one for one in preferences if one.condition == name):
-            _bracket(ax, preference, CONDITIONS[name], 1.1 + 0.1 * number)
+        for number, one in enumerate(one for one in preferences if one["condition"] == name):
+            _bracket(ax, one["more"], one["less"], one["p_value"], CONDITIONS[name], 1.1 + 0.1 * number)
     shares_axis(axes[0], "share of the runs that count", high=1.32)
     return figure
 
 
-def _bracket(ax: Axes, part: Preference, routes: Sequence[int], height: float) -> None:
-    left, right = sorted((routes.index(part.more), routes.index(part.less)))
+def _bracket(ax: Axes, more: int, less: int, p_value: float | None, routes: Sequence[int], height: float) -> None:
+    left, right = sorted((routes.index(more), routes.index(less)))
     ends = [height - 0.015, height, height, height - 0.015]
     ax.plot([left, left, right, right], ends, color=theme_of(ax).shade(0.7), linewidth=1.0)
-    above = next((bound for bound in BOUNDS if part.p_value is not None and part.p_value < float(bound)), "1")
-    text = f"{part.more} > {part.less}" + ("" if part.p_value is None else f", p < {above}")
+    above = next((bound for bound in BOUNDS if p_value is not None and p_value < float(bound)), "1")
+    text = f"{more} > {less}" + ("" if p_value is None else f", p < {above}")
     ax.text((left + right) / 2, height + 0.008, text, ha="center", va="bottom", size=9)

@@ -28,44 +28,26 @@ Row = TypeVar("Row")
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """What a study comes to.
+    """What a study comes to."""
 
-    Attributes:
-        json: what its JSON file holds besides the head: protocol, rows, summary; records count as objects.
-        lines: what the terminal shows.
-        figures: by the stem of their file, drawn when they are asked for.
-        tables: the main rows first; None: read off `json`, and the report shows `lines` as well.
-        failed: what did not get there, one line each.
-    """
-
-    json: Mapping[str, Any]
-    lines: Sequence[str]
-    figures: Mapping[str, Callable[[], Figure]]
-    tables: Sequence[Table] | None = None
-    failed: Sequence[str] = ()
+    json: Mapping[str, Any]  # what its JSON file holds besides the head: protocol, rows, summary
+    lines: Sequence[str]  # what the terminal shows
+    figures: Mapping[str, Callable[[], Figure]]  # by the stem of their file, drawn when they are asked for
+    tables: Sequence[Table] | None = None  # the main rows first; None: read off `json`, the report shows `lines` too
+    failed: Sequence[str] = ()  # what did not get there, one line each
 
 
 class Study(ABC, Generic[Task, Row]):
     """A study. A subclass says in its docstring what it asks: the title of its report, a blank line, the question.
 
-    How often its protocol does something are its fields, 1 or more.
-
-    Attributes:
-        name: of the study and of its files.
-        notes: where its figures differ from the published ones and why, and what to keep in mind.
-        agents: how many take part unless told otherwise.
-        settings: of the agents unless told otherwise.
-        alone: whether its tasks are done in this process, one after the other, whatever the executor.
-
-    Raises:
-        CogmapError: a field below 1.
+    How often its protocol does something are its fields; below 1 they are refused (CogmapError).
     """
 
-    name: ClassVar[str]
-    notes: ClassVar[tuple[str, ...]] = ()
-    agents: ClassVar[int] = 20
-    settings: ClassVar[Settings] = Settings()
-    alone: ClassVar[bool] = False
+    name: ClassVar[str]  # of the study and of its files
+    notes: ClassVar[tuple[str, ...]] = ()  # where its figures differ from the published and why; what to keep in mind
+    agents: ClassVar[int] = 20  # how many take part unless told otherwise
+    settings: ClassVar[Settings] = Settings()  # of the agents unless told otherwise
+    alone: ClassVar[bool] = False  # its tasks are done in this process, one after the other, whatever the executor
 
     def __post_init__(self) -> None:
         at_least(self.name, 1, **{name: value for name, value in vars(self).items() if isinstance(value, int)})

@@ -80,23 +80,6 @@ class Counts:
         return ", ".join(f"{count} {reason}" for reason, count in self.missed.items() if count)
 
 
-@dataclass(frozen=True, slots=True)
-class Setting:
-    """All that was found with one value of the knob."""
-
-    value: float
-    agents: int
-    distance: float  # total variation of the shares by route and of missed runs from the paper's, mean of the blocks
-    blocks: dict[str, Counts]
-
-    @classmethod
-    def of(cls, value: float, rows: Sequence[TolmanRow]) -> Setting:
-        """What these agents come to."""
-        blocks = {block: Counts.of(rows, block) for block in BLOCKS}
-        apart = [total_variation(counts.compared(block), PAPER[block]) for block, counts in blocks.items()]
-        return cls(value, len(rows), sum(apart) / len(apart), blocks)
-
-
 @dataclass(frozen=True)
 class Tolman(Study[Task, tuple[float, TolmanRow]]):
     """Tolman's maze in three blocks
@@ -139,13 +122,13 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
     def summarise(self, rows: Sequence[tuple[float, TolmanRow]]) -> Findings:
         """The counts of the study's own value, and how near each value comes to the paper's table."""
         by_value = {value: [row for other, row in rows if other == value] for value, _ in rows}
-        agents, settings = by_value[rows[0][0]], {value: Setting.of(value, part) for value, part in by_value.items()}
-        blocks, knob = settings[rows[0][0]].blocks, sorted(settings.values(), key=lambda setting: setting.value)
-        nearest = min(knob, key=lambda setting: setting.distance)
+        agents, knob = by_value[rows[0][0]], [_setting(value, by_value[value]) for value in sorted(by_value)]
+        blocks = next(setting["blocks"] for setting in knob if setting["value"] == rows[0][0])
+        nearest = min(knob, key=lambda setting: setting["distance"])
         protocol = {"start": maze.START, "goal": maze.GOAL, "steps_a_run": maze.STEPS, "closed": BLOCKS}
         json = {"world": maze.MAZE.name, "protocol": protocol, "rows": agents, "summary": blocks}
         json["paper"] = {block: dict(zip(ROUTES, _paper(block), strict=False)) for block in BLOCKS}
-        json["knob"] = {"name": KNOB, "settings": knob, "nearest_to_paper": nearest.value}
+        json["knob"] = {"name": KNOB, "settings": knob, "nearest_to_paper": nearest["value"]}
         figures = {"tolman_flow": partial(_flow, agents, blocks), "tolman_routes": partial(_routes, agents, blocks)}
         figures |= {"tolman_runs": partial(_runs, agents), "tolman_knob": partial(_knob, knob, nearest)}
         failed = [
@@ -156,11 +139,22 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
         return Findings(json, _lines(blocks, knob, nearest), figures, failed=failed)
 
 
+def _setting(value: float, rows: Sequence[TolmanRow]) -> dict[str, Any]:
+    """All that was found with one value of the knob.
+
+    The distance from the paper's table is the total variation of the shares by route and of missed runs, mean of the
+    blocks.
+    """
+    blocks = {block: Counts.of(rows, block) for block in BLOCKS}
+    apart = [total_variation(counts.compared(block), PAPER[block]) for block, counts in blocks.items()]
+    return {"value": value, "agents": len(rows), "distance": sum(apart) / len(apart), "blocks": blocks}
+
+
 def _shares(routes: Sequence[int | None]) -> dict[int, Share]:
     return {route: wilson(routes.count(route), len(routes)) for route in ROUTES}
 
 
-def _lines(blocks: dict[str, Counts], knob: Sequence[Setting], nearest: Setting) -> list[str]:
+def _lines(blocks: dict[str, Counts], knob: Sequence[dict[str, Any]], nearest: dict[str, Any]) -> list[str]:
     lines: list[str] = []
     for block, counts in blocks.items():
         missed = f"; missed: {counts.why}" if counts.why else ""
@@ -174,8 +168,8 @@ def _lines(blocks: dict[str, Counts], knob: Sequence[Setting], nearest: Setting)
         if BLOCKS[block] is not None:
             after = counts.agents_by_first_route_after_the_block
             lines.append(f"  once it was met, {after[2]} agents tried route 2 next and {after[3]} route 3")
-    tried = ", ".join(f"{setting.value:g}: {setting.distance:.2f}" for setting in knob)
-    near = f"{KNOB} nearest to the paper's table: {nearest.value:g} (total variation by value: {tried})"
+    tried = ", ".join(f"{one['value']:g}: {one['distance']:.2f}" for one in knob)
+    near = f"{KNOB} nearest to the paper's table: {nearest['value']:g} (total variation by value: {tried})"
     return [*lines, near]
 
 
@@ -245,10 +239,10 @@ def _runs(rows: Sequence[TolmanRow]) -> Figure:
     return figure
 
 
-def _knob(knob: Sequence[Setting], nearest: Setting) -> Figure:
+def _knob(knob: Sequence[dict[str, Any]], nearest: dict[str, Any]) -> Figure:
     title = (
-        f"The balance of exploring and exploiting; nearest to the paper's table: {KNOB} = {nearest.value:g} "
-        f"(total variation {nearest.distance:.2f})"
+        f"The balance of exploring and exploiting; nearest to the paper's table: {KNOB} = {nearest['value']:g} "
+        f"(total variation {nearest['distance']:.2f})"
     )
     figure, axes = panels(title, (1, 3), (12.0, 4.8), sharey=True)
     for ax, block in zip(axes, BLOCKS, strict=True):
@@ -261,8 +255,8 @@ def _knob(knob: Sequence[Setting], nearest: Setting) -> Figure:
     return figure
 
 
-def _draw_knob(ax: Axes, knob: Sequence[Setting], block: str) -> None:
-    end, counts = len(knob) - 0.25, [setting.blocks[block] for setting in knob]
+def _draw_knob(ax: Axes, knob: Sequence[dict[str, Any]], block: str) -> None:
+    end, counts = len(knob) - 0.25, [setting["blocks"][block] for setting in knob]
     colours = [*COLOURS.values(), theme_of(ax).shade(0.55)]
     for index, (colour, marker, line) in enumerate(zip(colours, "os^x", ("-", "--", "-.", ":"), strict=True)):
         if index == 0 and BLOCKS[block] is not None:
@@ -274,4 +268,4 @@ def _draw_knob(ax: Axes, knob: Sequence[Setting], block: str) -> None:
         ax.plot(end, PAPER[block][index] / PAPER_RUNS, markersize=10, clip_on=False, **look)
     goal = [part.goal_reached.share for part in counts]
     ax.plot(range(len(knob)), goal, color=theme_of(ax).ink, linewidth=1.0, label="goal reached")
-    ax.set_xticks([*range(len(knob)), end], [*(f"{setting.value:g}" for setting in knob), "paper"])
+    ax.set_xticks([*range(len(knob)), end], [*(f"{setting['value']:g}" for setting in knob), "paper"])
