@@ -15,8 +15,8 @@ from .drawing import draw
 from .errors import WorldError
 from .maze import Door, Maze, Position
 from .motions import GRID, Motions
+from .protocol import Observation
 
-Observation = dict[str, Any]
 Action = int | np.int64
 
 _OPTIONS = frozenset({"start", "keep_closed"})
@@ -63,6 +63,16 @@ class MazeEnv(gym.Env[Observation, Action]):
         if self._position is None:
             raise WorldError(f"nobody is in {self.maze.name!r} yet; call reset() first")
         return self._position
+
+    @property
+    def place(self) -> Position:
+        """The same: worlds that are no mazes have a place as well."""
+        return self.position
+
+    @property
+    def chart(self) -> Maze:
+        """The true map: the maze."""
+        return self.maze
 
     @property
     def closed_rooms(self) -> frozenset[Position]:

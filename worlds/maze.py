@@ -58,6 +58,27 @@ class Maze:
         return Maze, (self.name, dict(self.sights))
 
     @property
+    def places(self) -> tuple[Position, ...]:
+        """The rooms, as charts call them."""
+        return self.rooms
+
+    @property
+    def positions(self) -> Mapping[Position, tuple[float, ...]]:
+        """Each room at (column, -row), so that `up` is up."""
+        return {(row, column): (float(column), -float(row)) for row, column in self.rooms}
+
+    def successors(self, place: Position) -> dict[str, Position]:
+        """The room that each action leads to; walls lead back.
+
+        Raises:
+            WorldError: there is no such room.
+        """
+        behind = self.neighbours(place)
+        row, column = place
+        ahead = ((row + down, column + right) for down, right in GRID.displacements)
+        return {name: room if room in behind else place for name, room in zip(GRID.names, ahead, strict=True)}
+
+    @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of the grid that holds every room."""
         return max(row for row, _ in self.rooms) + 1, max(column for _, column in self.rooms) + 1
