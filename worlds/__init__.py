@@ -13,9 +13,11 @@ from .maze import Door, Label, Maze, Position
 from .motions import GRID, Motions
 from .oracle import covering_steps, covering_walk, shortest_path
 from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place, World, offered, place_of
-from .text import format_maze, parse_maze, read_maze
+from .text import format_maze, parse_maze
+from .text_styles import FORMATS, read_maze
 
 __all__ = [
+    "FORMATS",
     "GRID",
     "MAZES",
     "CanClose",

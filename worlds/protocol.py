@@ -61,6 +61,18 @@ class Chart(Protocol):
         """Where each place lies, or None where nobody knows."""
         ...
 
+    def find(self, place: Any) -> Place:
+        """`place` as it stands in `places`.
+
+        Raises:
+            WorldError: there is no such place.
+        """
+        ...
+
+    def exits(self, place: Place) -> Mapping[Any, Place | None]:
+        """Where each action leads, as in `successors`; None where there is no way."""
+        ...
+
     def successors(self, place: Place) -> Mapping[Any, Place]:
         """Where each action leads from `place` with everything open, by its name, in the order of the action indices.
 
