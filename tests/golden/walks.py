@@ -232,6 +232,20 @@ GOALS = {
     ),
     "a label never met": Walk(world="3x3_alias", steps=30, events=[(0, "prefer", {"sights": {"nowhere": 3.0}})]),
     "a label met late": Walk(world="house", seed=1, steps=36, events=[(0, "prefer", {"sights": {"attic": 4.0}})]),
+    "a sight far away": Walk(
+        world="tolman",
+        start=(6, 2),
+        steps=60,
+        settings={"look_ahead": 3},
+        events=[(32, "prefer", {"sights": {0: 3.0}}), (46, "prefer", {"sights": {7: 3.0, 13: -1.0}})],
+    ),
+    "a place far away": Walk(
+        world="spiral",
+        start=(0, 0),
+        steps=60,
+        settings={"look_ahead": 3},
+        events=[(25, "prefer", {"positions": {(0, 0): 3.0}}), (52, "prefer", {"positions": {(2, 5): 3.0}})],
+    ),
     "goal weight 2": Walk(
         world="tolman",
         start=(6, 2),
