@@ -46,14 +46,14 @@ class Outlook:
         steps: visits, at most, that plans ask the information of: N.
     """
 
-    __slots__ = ("_doors", "_map", "_outcomes", "_read", "_sights", "_visits", "steps")
+    __slots__ = ("_doors", "_map", "_outcomes", "_read", "_sights", "steps")
 
     def __init__(self, map_: CognitiveMap, steps: int) -> None:
         self.steps = steps
         self._map = map_
         self._doors, self._sights = Kept(self._new_doors), Kept(self._new_sights)
-        self._read = [-1, -1, -1]  # of the journals of A_o, A_p, B_s
-        self._outcomes = self._visits = 0
+        self._read = -1  # of the log of changes
+        self._outcomes = 0
 
     def check(self, map_: CognitiveMap, look_ahead: int) -> None:
         """Raise `CogmapError` unless it is of this map, and tells of enough visits for this look-ahead."""
@@ -64,20 +64,12 @@ class Outlook:
 
     def refresh(self) -> None:
         """Forget what has changed since the last call."""
-        journals = self._map.A_o.journal, self._map.A_p.journal, self._map.B_s.journal
-        news = [journal.since(read) for journal, read in zip(journals, self._read, strict=True)]
-        (of_sights, of_positions, of_doors), self._read = (rows for rows, _ in news), [read for _, read in news]
-        new_sight = self._map.A_o.outcomes != self._outcomes
-        if new_sight or of_sights is None or of_positions is None:
-            self._sights.forget()
-        else:
-            self._sights.forget(of_sights + of_positions)
-        visits, size = self._map.visited_places, len(self._map.motions)
-        if of_doors is None:
-            self._doors.forget()
-        else:
-            self._doors.forget([row // size for row in of_doors] + visits[self._visits :].tolist())
-        self._outcomes, self._visits = self._map.A_o.outcomes, len(visits)
+        map_, read = self._map, self._read
+        of_doors, _ = map_.changed_places(read, map_.B_s, map_.visits)
+        of_sights, self._read = map_.changed_places(read, map_.A_o, map_.A_p)
+        self._doors.forget(of_doors)
+        self._sights.forget(of_sights if map_.A_o.outcomes == self._outcomes else None)
+        self._outcomes = map_.A_o.outcomes
 
     def doors(self, places: Ints) -> tuple[Doors, Floats]:
         """The doors of `places`, and what looks at them teach of B_s: `[n, N + 1]` nats."""
