@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .base import PlaceEnv
+from .behaviour import behaviour, distinguishable
 from .builtin import MAZES
 from .drawing import draw, label_colour
 from .environment import MazeEnv
@@ -14,8 +15,9 @@ from .load import load_world, register_worlds, world_of
 from .maze import Door, Label, Maze, Position
 from .motions import GRID, Motions
 from .noise import NOISES, NoisyWorld
-from .oracle import covering_steps, covering_walk, shortest_path
+from .oracle import MOST_EXACT, MOST_TOUR, MOST_WALKED, covering_steps, covering_walk, frontier_walk, tour
 from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place, World, offered, place_of
+from .routes import shortest_path, walk_length
 from .text import format_maze, parse_maze
 from .text_styles import FORMATS, read_maze
 
@@ -23,6 +25,9 @@ __all__ = [
     "FORMATS",
     "GRID",
     "MAZES",
+    "MOST_EXACT",
+    "MOST_TOUR",
+    "MOST_WALKED",
     "NOISES",
     "POSES",
     "CanClose",
@@ -43,11 +48,14 @@ __all__ = [
     "Position",
     "World",
     "WorldError",
+    "behaviour",
     "comb",
     "covering_steps",
     "covering_walk",
+    "distinguishable",
     "draw",
     "format_maze",
+    "frontier_walk",
     "hall",
     "label_colour",
     "labyrinth",
@@ -62,6 +70,8 @@ __all__ = [
     "rings",
     "shortest_path",
     "spiral",
+    "tour",
+    "walk_length",
     "world_of",
 ]
 
