@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from .cognitive_map import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, CognitiveMap, Priors
 from .conditional import ConditionalTable, LearnableTable
-from .dirichlet import SparseDirichlet
+from .dirichlet import EMPTY, SparseDirichlet
+from .distinct import distinct
 from .domain import Domain
 from .errors import CogmapError
 from .factor_graph import FactorGraph
@@ -23,6 +24,7 @@ from .variables import Variable
 __all__ = [
     "BLOCKED",
     "ELSEWHERE",
+    "EMPTY",
     "GROWTHS",
     "OPEN",
     "TABLE_RATES",
@@ -51,6 +53,7 @@ __all__ = [
     "SparseDirichlet",
     "SparseValues",
     "Variable",
+    "distinct",
     "growth_between",
     "growth_named",
     "growth_table",
