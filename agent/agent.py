@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from ..inference.filter import advance, begin
 from ..inference.message import Belief, Evidence
 from ..inference.rivals import DECISIVE, Rivals, advance_rivals, certain_of, rivals_of
+from ..model import FactorGraph
 from ..model.cognitive_map import CognitiveMap
 from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
 from ..model.labels import decode, encode
 from ..model.map_state import map_arrays, restore_map
 from ..model.motions import Motions, MotionSpec

@@ -6,8 +6,8 @@ from collections import deque
 from collections.abc import Sequence
 from itertools import pairwise
 
+from ..inference import infer
 from ..inference.message import Belief, Evidence
-from ..inference.query import infer
 from ..model.cognitive_map import CognitiveMap
 from ..model.growth import growth_named
 from ..model.learning import Learner

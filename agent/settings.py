@@ -8,8 +8,8 @@ from typing import Any, cast
 
 import numpy as np
 
+from ..inference import ENGINES
 from ..inference.message import FilterOptions
-from ..inference.query import ENGINES
 from ..model.cognitive_map import Priors
 from ..model.errors import CogmapError
 from ..model.growth import GROWTHS

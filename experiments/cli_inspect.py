@@ -153,8 +153,8 @@ def _write_graph(agent: Agent, graph: str, of: str, target: Path) -> None:
 
 
 def _window(agent: Agent, graph: str) -> bytes:
+    from ..model import MOST_DRAWN, graph_svg
     from ..model.errors import CogmapError
-    from ..model.graph_svg import MOST, graph_svg
 
     window = agent.graph
     if graph == "png":
@@ -164,7 +164,9 @@ def _window(agent: Agent, graph: str) -> bytes:
     if graph == "svg":
         drawn = graph_svg(window)
         if drawn is None:
-            raise CogmapError(f"inspect: the window is empty, or has more than {MOST} nodes to draw; use --graph dot")
+            raise CogmapError(
+                f"inspect: the window is empty, or has more than {MOST_DRAWN} nodes to draw; use --graph dot"
+            )
         return drawn.encode()
     text = window.to_dot() if graph == "dot" else window.to_json(indent=1)
     return text.encode(errors="replace")

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from .errors import ImpossibleEvidence
+from .exact import ENGINES
 from .free_energy import FreeEnergy, free_energy, free_energy_of
 from .posterior import MostProbable, Posterior
-from .query import ENGINES, infer, log_product, most_probable
+from .query import infer, log_product, most_probable
 
 __all__ = [
     "ENGINES",

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
 
-from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
+from ..model import CogmapError, FactorGraph
 
 
 def all_evidence(graph: FactorGraph, evidence: Mapping[str, Hashable] | None) -> dict[str, Hashable]:

@@ -13,9 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
-from ..model.factors import Factor, FloatArray
+from ..model import CogmapError, Factor, FactorGraph, FloatArray
 from .evidence import all_evidence, fixed_indices
 from .posterior import Posterior, expected_log
 from .query import infer

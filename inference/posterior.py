@@ -2,32 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
-from typing import Protocol
 
 import numpy as np
 
-from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
-from ..model.factors import Factor, FloatArray
-
-
-class Solution(Protocol):
-    """What an engine leaves behind: it answers any joint over the variables of its graph."""
-
-    @property
-    def log_evidence(self) -> float:
-        """log Z."""
-        ...
-
-    def joint(self, names: Sequence[str]) -> FloatArray:
-        """P(names | evidence), one axis a name."""
-        ...
-
-    def entropy(self) -> float:
-        """Entropy of the posterior over all variables, in nats."""
-        ...
+from ..model import CogmapError, Factor, FactorGraph, FloatArray
+from .exact import Solution
 
 
 @dataclass(frozen=True, slots=True)

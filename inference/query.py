@@ -5,14 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 
-from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
-from . import brute, elimination
+from ..model import CogmapError, FactorGraph
 from .evidence import all_evidence
-from .posterior import MostProbable, Posterior, Solution
-from .problem import Problem, reduce
-
-ENGINES = ("numpy", "gtsam", "brute")
+from .exact import maximise, reduce, solve
+from .posterior import MostProbable, Posterior
 
 
 def infer(
@@ -38,8 +34,8 @@ def infer(
     """
     graph = graph.copy()
     wanted = _checked_pairs(graph, pairs)
-    problem = _problem(graph, evidence, engine)
-    solution = _solve(problem, engine, order)
+    problem = reduce(graph, all_evidence(graph, evidence))
+    solution = solve(problem, engine, order)
     joints = {names: solution.joint(names) for names in wanted}
     return Posterior(graph, problem.given, engine, solution.log_evidence, solution, joints)
 
@@ -56,16 +52,8 @@ def most_probable(
     Arguments and errors as for `infer`.
     """
     graph = graph.copy()
-    problem = _problem(graph, evidence, engine)
-    if engine == "brute":
-        best = brute.most_probable(problem)
-        labels = {variable.name: variable.domain[best[variable.name]] for variable in graph.variables}
-    elif engine == "gtsam":
-        from . import gtsam_engine
-
-        labels = problem.labels(gtsam_engine.maximise(problem, order))
-    else:
-        labels = problem.labels(elimination.maximise(problem, order))
+    problem = reduce(graph, all_evidence(graph, evidence))
+    labels = maximise(problem, engine, order)
     return MostProbable(graph, labels, log_product(graph, labels))
 
 
@@ -88,19 +76,3 @@ def _checked_pairs(graph: FactorGraph, pairs: Iterable[Sequence[str]]) -> list[t
             graph.variable_named(name)
         wanted.append(tuple(names))
     return wanted
-
-
-def _problem(graph: FactorGraph, evidence: Mapping[str, Hashable] | None, engine: str) -> Problem:
-    if engine not in ENGINES:
-        raise CogmapError(f"inference: no engine {engine!r}; choose one of {', '.join(ENGINES)}")
-    return reduce(graph, all_evidence(graph, evidence))
-
-
-def _solve(problem: Problem, engine: str, order: Sequence[str] | None) -> Solution:
-    if engine == "brute":
-        return brute.solve(problem)
-    if engine == "gtsam":
-        from . import gtsam_engine
-
-        return gtsam_engine.solve(problem, order)
-    return elimination.solve(problem, order)

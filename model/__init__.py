@@ -3,29 +3,45 @@
 from __future__ import annotations
 
 from .cognitive_map import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, CognitiveMap, Priors
-from .conditional import ConditionalTable, LearnableTable
 from .dirichlet import EMPTY, SparseDirichlet
 from .distinct import distinct
 from .domain import Domain
 from .errors import CogmapError
-from .factor_graph import FactorGraph
-from .factors import Factor, SparseValues
+from .graph import (
+    MOST_DRAWN,
+    ConditionalTable,
+    Factor,
+    FactorGraph,
+    FloatArray,
+    IntArray,
+    LabelledTable,
+    LearnableTable,
+    SparseValues,
+    Variable,
+    equation,
+    graph_svg,
+    labelled,
+    quoted,
+    sparse_values,
+    table,
+)
 from .growth import GROWTHS, Growth, growth_named
 from .growth_log import GrowthEvent
 from .growth_table import GrownPlace, GrowthDifference, growth_between, growth_table
+from .labels import decode, encode, identity, plain, shown
 from .learning import TABLE_RATES, TEXT_RATES, Learner, Rates
 from .lesson import Lesson
 from .map_tables import map_table
+from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .slices import Slice, take_slice, window_graph
-from .tables import LabelledTable, labelled, table
-from .variables import Variable
 
 __all__ = [
     "BLOCKED",
     "ELSEWHERE",
     "EMPTY",
     "GROWTHS",
+    "MOST_DRAWN",
     "OPEN",
     "TABLE_RATES",
     "TEXT_RATES",
@@ -36,10 +52,12 @@ __all__ = [
     "Domain",
     "Factor",
     "FactorGraph",
+    "FloatArray",
     "GrownPlace",
     "Growth",
     "GrowthDifference",
     "GrowthEvent",
+    "IntArray",
     "LabelledTable",
     "LearnableTable",
     "Learner",
@@ -53,12 +71,23 @@ __all__ = [
     "SparseDirichlet",
     "SparseValues",
     "Variable",
+    "decode",
     "distinct",
+    "encode",
+    "equation",
+    "graph_svg",
     "growth_between",
     "growth_named",
     "growth_table",
+    "html_table",
+    "identity",
     "labelled",
     "map_table",
+    "plain",
+    "quoted",
+    "safe",
+    "shown",
+    "sparse_values",
     "table",
     "take_slice",
     "window_graph",

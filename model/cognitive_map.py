@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from networkx import MultiDiGraph
     from pandas import DataFrame
 
-    from .tables import LabelledTable
+    from .graph import LabelledTable
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -232,8 +232,8 @@ class CognitiveMap:
         self, name: str, *, action: str | int | None = None, places: Sequence[int] | None = None
     ) -> DataFrame | LabelledTable:
         """`A_o`, `A_p`, or `B_s` of one action, with labels on both axes; see `map_tables.map_table`."""
+        from .graph import table
         from .map_tables import map_table
-        from .tables import table
 
         return table(map_table(self, name, action=action, places=places))
 

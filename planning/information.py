@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 
 Floats = NDArray[np.float64]
 

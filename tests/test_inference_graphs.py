@@ -7,8 +7,8 @@ import itertools
 import numpy as np
 import pytest
 from cogmap.inference import ImpossibleEvidence, infer
-from cogmap.inference.problem import reduce
-from cogmap.model.factor_graph import FactorGraph
+from cogmap.inference.exact.problem import reduce
+from cogmap.model import FactorGraph
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from ..model import LabelledTable
 from ..model.labels import shown
 from ..model.markup import safe
-from ..model.tables import LabelledTable
 
 if TYPE_CHECKING:
     from ..planning import Term

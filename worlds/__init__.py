@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .builtin import MAZES
 from .drawing import draw, label_colour
-from .environment import MazeEnv, Observation
+from .environment import MazeEnv
 from .errors import WorldError
 from .generate import comb, hall, random_maze, rings, spiral
 from .labyrinth import labyrinth
@@ -12,18 +12,27 @@ from .load import load_world, register_worlds
 from .maze import Door, Label, Maze, Position
 from .motions import GRID, Motions
 from .oracle import covering_steps, covering_walk, shortest_path
-from .text import format_maze, parse_maze, read_maze
+from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place, World, offered, place_of
+from .text import format_maze, parse_maze
+from .text_styles import FORMATS, read_maze
 
 __all__ = [
+    "FORMATS",
     "GRID",
     "MAZES",
+    "CanClose",
+    "CanDisplace",
+    "Chart",
     "Door",
+    "HasChart",
     "Label",
     "Maze",
     "MazeEnv",
     "Motions",
     "Observation",
+    "Place",
     "Position",
+    "World",
     "WorldError",
     "comb",
     "covering_steps",
@@ -34,7 +43,9 @@ __all__ = [
     "label_colour",
     "labyrinth",
     "load_world",
+    "offered",
     "parse_maze",
+    "place_of",
     "random_maze",
     "read_maze",
     "register_worlds",

@@ -9,7 +9,7 @@ import gymnasium as gym
 from .builtin import MAZES
 from .environment import MazeEnv
 from .errors import WorldError
-from .text import read_maze
+from .text_styles import read_maze
 
 
 def load_world(name_or_path: str | Path, *, render_mode: str | None = None) -> MazeEnv:

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from .structure import GraphStructure
+from .variables import Variable
+
 if TYPE_CHECKING:
     import networkx as nx
-
-    from .factor_graph import FactorGraph
-    from .variables import Variable
-
 
 LONGEST = 3000
 """Characters of one text: Graphviz reads no string of more than 16384 bytes, and one of these takes five at most."""
 
 
-def to_networkx(graph: FactorGraph) -> nx.Graph[Any]:
+def to_networkx(graph: GraphStructure) -> nx.Graph[Any]:
     """The bipartite graph of variables (by name) and factors (by label).
 
     Variable nodes carry `bipartite=0, node="variable", domain, time, observed, evidence`; factor nodes
@@ -53,7 +52,7 @@ def to_networkx(graph: FactorGraph) -> nx.Graph[Any]:
     return result
 
 
-def to_dot(graph: FactorGraph) -> str:
+def to_dot(graph: GraphStructure) -> str:
     """Graphviz source: circles are variables (observed ones grey), squares are factors."""
     ids = {variable.name: f"v{i}" for i, variable in enumerate(graph.variables)}
     lines = ["graph factor_graph {", "  node [fontsize=11];"]
@@ -67,7 +66,7 @@ def to_dot(graph: FactorGraph) -> str:
     return "\n".join([*lines, "}"]) + "\n"
 
 
-def equation(graph: FactorGraph, *, most_terms: int | None = None) -> str:
+def equation(graph: GraphStructure, *, most_terms: int | None = None) -> str:
     """The graph as the equation it stands for, such as `P(s0, s1 | o1) ∝ prior(s0) · B_s(s1, s0) · A_o(o1, s1)`.
 
     Args:
@@ -89,7 +88,7 @@ def quoted(text: str) -> str:
     return '"' + escaped.replace("\r", "").replace("\n", "\\n") + '"'
 
 
-def _variable_text(graph: FactorGraph, variable: Variable) -> str:
+def _variable_text(graph: GraphStructure, variable: Variable) -> str:
     """The name, with the label where evidence or a single label fixes it."""
     if variable.name in graph.evidence:
         return f"{variable.name}={graph.evidence[variable.name]!r}"

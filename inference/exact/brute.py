@@ -8,10 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model.errors import CogmapError
-from ..model.factors import FloatArray, IntArray
-from .errors import impossible
-from .evidence import fixed_indices
+from ...model import CogmapError, FloatArray, IntArray
+from ..errors import impossible
+from ..evidence import fixed_indices
 from .problem import Problem
 
 MOST_ASSIGNMENTS = 2_000_000
@@ -84,6 +83,6 @@ def _enumerated(problem: Problem) -> tuple[IntArray, FloatArray]:
         for factor in graph.factors:
             logs += np.log(factor.dense()[tuple(columns[v.name] for v in factor.scope)])
     if not np.isfinite(logs.max()):
-        raise impossible(problem, columns)
+        raise impossible(graph, problem.given, columns)
     stacked = np.stack(list(columns.values()), axis=1) if columns else np.zeros((1, 0), dtype=np.int64)
     return stacked, logs

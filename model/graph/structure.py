@@ -1,31 +1,23 @@
-"""A small language for discrete factor graphs: declare variables, then factors over them."""
+"""What a factor graph consists of: variables, factors over them, evidence; and how each is declared."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Self
 
 from numpy.typing import ArrayLike
 
-from . import export
+from ..errors import CogmapError
 from .conditional import LearnableTable
-from .errors import CogmapError
 from .factors import Factor, SparseValues
 from .variables import Variable
 
-if TYPE_CHECKING:
-    import networkx as nx
-    from pandas import DataFrame
 
-    from .tables import LabelledTable
+class GraphStructure:
+    """P(x) ∝ Π_f f(x_f): variables with labelled domains and factors over them. What `FactorGraph` is built on.
 
-
-class FactorGraph:
-    """P(x) ∝ Π_f f(x_f): variables with labelled domains and factors over them. Append-only.
-
-    Example: `g = FactorGraph(); g.variable("rain", (False, True)); g.factor("P", ["rain"], [0.8, 0.2])`.
     Everything raises `CogmapError` on names unknown or taken, and on values that do not fit their scope.
     """
 
@@ -106,11 +98,11 @@ class FactorGraph:
             raise CogmapError(f"conditional {name!r}: the table needs `mean()` and `learn(counts, rate)`")
         return self.factor(name, [child, *parents], table.mean(), kind=kind, equation=equation, table=table)
 
-    def observe(self, name: str | Variable, label: Hashable) -> FactorGraph:
+    def observe(self, name: str | Variable, label: Hashable) -> Self:
         """A new graph with the evidence `name = label`; this one stays as it is."""
         return self.observe_all({self._member(name, "observe").name: label})
 
-    def observe_all(self, evidence: Mapping[str, Hashable]) -> FactorGraph:
+    def observe_all(self, evidence: Mapping[str, Hashable]) -> Self:
         """A new graph with a label for each variable named; this one stays as it is."""
         graph = self.copy()
         for name, label in evidence.items():
@@ -119,7 +111,7 @@ class FactorGraph:
                 raise CogmapError(f"evidence: {name} is {graph._evidence[name]!r} in the graph already, not {label!r}")
         return graph
 
-    def refreshed(self) -> FactorGraph:
+    def refreshed(self) -> Self:
         """A new graph whose learnable conditionals have the present mean of their tables."""
         graph = self.copy()
         for label, factor in self._factors.items():
@@ -127,9 +119,9 @@ class FactorGraph:
                 graph._factors[label] = replace(factor, values=factor.table.mean())
         return graph
 
-    def copy(self) -> FactorGraph:
+    def copy(self) -> Self:
         """A graph of its own with the same variables, factors and evidence."""
-        graph = FactorGraph()
+        graph = type(self)()
         graph._variables.update(self._variables)
         graph._factors.update(self._factors)
         graph._evidence.update(self._evidence)
@@ -162,65 +154,3 @@ class FactorGraph:
         if (known := self._variables.get(item.name)) is not item and known != item:
             raise CogmapError(f"{where}: variable {item.name!r} is not of this graph; declare it first")
         return item
-
-    def to_networkx(self) -> nx.Graph[Any]:
-        """A bipartite networkx graph; see `export.to_networkx`."""
-        return export.to_networkx(self)
-
-    def to_dot(self) -> str:
-        """Graphviz source; see `export.to_dot`."""
-        return export.to_dot(self)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The graph as plain JSON values; see `graph_json.graph_to_dict`."""
-        from .graph_json import graph_to_dict
-
-        return graph_to_dict(self)
-
-    def to_json(self, *, indent: int | None = None) -> str:
-        """The graph as JSON text, with every digit; see `graph_json.graph_to_dict`."""
-        from .graph_json import graph_to_json
-
-        return graph_to_json(self, indent=indent)
-
-    @classmethod
-    def from_dict(cls, values: Mapping[str, Any]) -> FactorGraph:
-        """The graph that `to_dict` took apart: `same_as` the first."""
-        from .graph_json import graph_from_dict
-
-        return graph_from_dict(values)
-
-    @classmethod
-    def from_json(cls, text: str) -> FactorGraph:
-        """The graph that `to_json` wrote: `same_as` the first."""
-        from .graph_json import graph_from_json
-
-        return graph_from_json(text)
-
-    def same_as(self, other: FactorGraph) -> bool:
-        """Whether variables, factors and evidence are the same to the last digit; see `graph_json.same_graph`."""
-        from .graph_json import same_graph
-
-        return same_graph(self, other)
-
-    def __eq__(self, other: object) -> bool:
-        return self.same_as(other) if isinstance(other, FactorGraph) else NotImplemented
-
-    def table(self, name: str) -> DataFrame | LabelledTable:
-        """The values of the factor with that label or name, with labels on both axes; see `tables.table`."""
-        from .tables import table
-
-        return table(self.factor_named(name))
-
-    def __repr__(self) -> str:
-        return export.equation(self, most_terms=12)
-
-    def _repr_html_(self) -> str:
-        from .graph_html import graph_html
-
-        return graph_html(self)
-
-    def _repr_svg_(self) -> str | None:
-        from .graph_svg import graph_svg
-
-        return graph_svg(self)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterable, Sequence
 from itertools import combinations
 
-from ..model.errors import CogmapError
+from ...model import CogmapError
 from .problem import Problem
 
 Elimination = list[tuple[int, frozenset[int]]]

@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
+from ..errors import CogmapError
+from ..labels import decode, encode, identity, plain
 from .conditional import ConditionalTable
-from .errors import CogmapError
-from .factor_graph import FactorGraph
 from .factors import Factor, SparseValues, sparse_values
-from .labels import decode, encode, identity, plain
+from .structure import GraphStructure
 from .variables import Variable
 
+AnyGraph = TypeVar("AnyGraph", bound=GraphStructure)
 FORMAT = "cogmap factor graph"
 SCHEMA = 1
 """Version of the layout."""
 
 
-def graph_to_dict(graph: FactorGraph) -> dict[str, Any]:
+def graph_to_dict(graph: GraphStructure) -> dict[str, Any]:
     """The graph as plain JSON values; `graph_from_dict` gives an equal one.
 
     Of learnable tables, those of type `ConditionalTable` are kept, shared ones once; the mean of others is in the
@@ -42,8 +43,8 @@ def graph_to_dict(graph: FactorGraph) -> dict[str, Any]:
     }
 
 
-def graph_from_dict(values: Mapping[str, Any]) -> FactorGraph:
-    """The graph that `graph_to_dict` took apart.
+def graph_from_dict(values: Mapping[str, Any], empty: AnyGraph) -> AnyGraph:
+    """The graph that `graph_to_dict` took apart, as one of the type of `empty`.
 
     Raises:
         CogmapError: it is no such graph, from a newer version, or damaged.
@@ -55,18 +56,18 @@ def graph_from_dict(values: Mapping[str, Any]) -> FactorGraph:
             f"graph: the JSON has schema {values.get('schema')!r}, not {SCHEMA}; update cogmap to read it"
         )
     try:
-        return _restored(values)
+        return _restored(values, empty)
     except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
         raise CogmapError(f"graph: the JSON is damaged ({type(error).__name__}: {error}); export it again") from error
 
 
-def graph_to_json(graph: FactorGraph, *, indent: int | None = None) -> str:
+def graph_to_json(graph: GraphStructure, *, indent: int | None = None) -> str:
     """`graph_to_dict` as text; every number is written so that it is read back exactly."""
     return json.dumps(graph_to_dict(graph), allow_nan=False, indent=indent)
 
 
-def graph_from_json(text: str) -> FactorGraph:
-    """The graph that `graph_to_json` wrote.
+def graph_from_json(text: str, empty: AnyGraph) -> AnyGraph:
+    """The graph that `graph_to_json` wrote, as one of the type of `empty`.
 
     Raises:
         CogmapError: what `graph_from_dict` raises, or the text is no JSON.
@@ -75,10 +76,10 @@ def graph_from_json(text: str) -> FactorGraph:
         values = json.loads(text)
     except (RecursionError, TypeError, ValueError) as error:
         raise CogmapError(f"graph: this is no JSON ({error}); give what to_json wrote") from error
-    return graph_from_dict(values)
+    return graph_from_dict(values, empty)
 
 
-def same_graph(one: FactorGraph, other: FactorGraph) -> bool:
+def same_graph(one: GraphStructure, other: GraphStructure) -> bool:
     """Whether variables, factors and evidence are the same, in the same order, to the last digit.
 
     Labels are the same if their types are as well (1 is not True). Learnable tables are not looked at.
@@ -114,8 +115,7 @@ def _sparse(values: SparseValues) -> dict[str, Any]:
     return {"indices": values.indices.tolist(), "sparse": values.values.tolist()}
 
 
-def _restored(values: Mapping[str, Any]) -> FactorGraph:
-    graph = FactorGraph()
+def _restored(values: Mapping[str, Any], graph: AnyGraph) -> AnyGraph:
     for part in values["variables"]:
         domain = tuple(decode(label) for label in part["domain"])
         graph.variable(part["name"], domain, time=part["time"], observed=part["observed"])

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import cast
 
-from .errors import CogmapError
+from ..errors import CogmapError
 
 
 @dataclass(frozen=True, slots=True)

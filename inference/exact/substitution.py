@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ..model.factors import FloatArray, IntArray
+from ...model import FloatArray, IntArray
 
 Table = tuple[tuple[int, ...], FloatArray]
 Parents = dict[int, tuple[int, IntArray]]

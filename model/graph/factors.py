@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import CogmapError
+from ..errors import CogmapError
 from .variables import Variable
 
 FloatArray = NDArray[np.float64]

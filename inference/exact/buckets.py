@@ -8,8 +8,8 @@ from functools import reduce
 
 import numpy as np
 
-from ..model.factors import FloatArray
-from .errors import impossible
+from ...model import FloatArray
+from ..errors import impossible
 from .ordering import Elimination
 from .problem import Problem
 from .substitution import Table
@@ -68,6 +68,7 @@ class Buckets:
     def _scaled(self, values: FloatArray, scope: Sequence[int]) -> FloatArray:
         largest = float(values.max())
         if not largest > 0:
-            raise impossible(self.problem, (self.problem.names[i] for i in scope))
+            names = (self.problem.names[i] for i in scope)
+            raise impossible(self.problem.graph, self.problem.given, names)
         self.log_scale += math.log(largest)
         return values / largest

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import CogmapError
+from ..labels import plain, shown
+from ..markup import html_table
 from .conditional import ConditionalTable
-from .errors import CogmapError
 from .factors import Factor
-from .labels import plain, shown
-from .markup import html_table
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Index

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model.factor_graph import FactorGraph
-from ..model.factors import FloatArray, IntArray
-from .errors import impossible
-from .evidence import fixed_indices
+from ...model import FactorGraph, FloatArray, IntArray
+from ..errors import impossible
+from ..evidence import fixed_indices
 from .substitution import Table, substitute
 
 Where = tuple[int | None, IntArray | int | None]
@@ -112,7 +111,7 @@ def reduce(graph: FactorGraph, given: Mapping[str, Hashable]) -> Problem:
         where=where,
     )
     if blame:
-        raise impossible(problem, blame)
+        raise impossible(graph, given, blame)
     return problem
 
 

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..model.errors import CogmapError
-from ..model.factors import FloatArray
+from ...model import CogmapError, FloatArray
 from . import elimination as numpy_engine
 from .bucket_tree import BucketTree, tree_of
 from .ordering import Elimination, elimination

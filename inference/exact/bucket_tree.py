@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..model.factors import FloatArray
+from ...model import FloatArray
 from .buckets import LARGEST_CLUSTER, Buckets
 from .ordering import elimination
 from .problem import Problem

@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .errors import CogmapError
+from ..errors import CogmapError
 from .factors import FloatArray
 
 

@@ -7,15 +7,15 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import permutations, product
 
-from .factor_graph import FactorGraph
+from ..labels import shown
+from ..markup import safe
 from .factors import Factor
-from .labels import shown
-from .markup import safe
+from .structure import GraphStructure
 from .variables import Variable, shortened
 
 Point = tuple[float, float]
 
-MOST = 200
+MOST_DRAWN = 200
 """Nodes of the largest graph that is drawn: a larger one is a tangle."""
 
 _STEP = (110.0, 72.0)  # between columns and rows, in pixels
@@ -24,16 +24,16 @@ _RADIUS, _HALF, _MARGIN = 20.0, 6.0, 48.0
 _FEW = 6  # names whose orders are all tried
 
 
-def graph_svg(graph: FactorGraph) -> str | None:
+def graph_svg(graph: GraphStructure) -> str | None:
     """The graph as SVG: circles are variables (observed ones grey), black squares are factors.
 
     Variables that have a time stand in a column a time step, in the row of their name; others fill columns of
     their own, before these. Every node tells more when it is pointed at.
 
     Returns:
-        None for an empty graph and for one of more than `MOST` nodes.
+        None for an empty graph and for one of more than `MOST_DRAWN` nodes.
     """
-    if not 0 < len(graph.variables) + len(graph.factors) <= MOST:
+    if not 0 < len(graph.variables) + len(graph.factors) <= MOST_DRAWN:
         return None
     where = _variables(graph)
     factors = _factors(graph, where)
@@ -45,7 +45,7 @@ def graph_svg(graph: FactorGraph) -> str | None:
     return _framed([*lines, *squares, *nodes], [*where.values(), *factors.values()])
 
 
-def _variables(graph: FactorGraph) -> dict[str, Point]:
+def _variables(graph: GraphStructure) -> dict[str, Point]:
     """Column and row of each variable, in pixels."""
     cells: dict[str, tuple[int, int]] = {}
     untimed = [variable for variable in graph.variables if variable.time is None]
@@ -68,7 +68,7 @@ def _variables(graph: FactorGraph) -> dict[str, Point]:
     return {name: (column * _STEP[0] + _OFF * (row % 2), row * _STEP[1]) for name, (column, row) in cells.items()}
 
 
-def _rows(graph: FactorGraph) -> dict[str, int]:
+def _rows(graph: GraphStructure) -> dict[str, int]:
     """The row of each name without its time; of a few names, those that share factors stand together."""
     stems = list(dict.fromkeys(_stem(variable) for variable in graph.variables if variable.time is not None))
     shared = Counter(frozenset(_stem(v) for v in factor.scope if v.time is not None) for factor in graph.factors)
@@ -88,7 +88,7 @@ def _stem(variable: Variable) -> str:
     return re.sub(rf"[_\[({{]*{variable.time}[\])}}]*$", "", variable.name) or variable.name
 
 
-def _factors(graph: FactorGraph, where: Mapping[str, Point]) -> dict[str, Point]:
+def _factors(graph: GraphStructure, where: Mapping[str, Point]) -> dict[str, Point]:
     """Each factor amid its variables, as near as there is room."""
     taken = [(point, _RADIUS + 2 * _HALF) for point in where.values()]
     points: dict[str, Point] = {}
@@ -117,7 +117,7 @@ def _line(start: Point, end: Point) -> str:
     )
 
 
-def _circle(graph: FactorGraph, variable: Variable, at: Point) -> str:
+def _circle(graph: GraphStructure, variable: Variable, at: Point) -> str:
     observed = graph.is_observed(variable)
     fill = "#d0d0d0" if observed else "white"
     tip = f"{variable.name} in {shortened(variable.domain)}" + (", observed" if observed else "")

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ..model.factors import FloatArray, IntArray
+from ...model import FloatArray, IntArray
 from .bucket_tree import BucketTree, tree_of
 from .buckets import LARGEST_CLUSTER, Buckets
 from .ordering import elimination

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from ..labels import shown
+from ..markup import html_table, safe
 from .export import equation
-from .factor_graph import FactorGraph
-from .labels import shown
-from .markup import html_table, safe
+from .structure import GraphStructure
 from .variables import Variable
 
 MOST = 30  # rows a table
 
 
-def graph_html(graph: FactorGraph) -> str:
+def graph_html(graph: GraphStructure) -> str:
     """The equation, and a table of the variables and one of the factors, the first `MOST` of each."""
     variables = [(v.name, _domain(v), "" if v.time is None else v.time, _role(graph, v)) for v in graph.variables]
     factors = [(f.label, f.kind, " x ".join(map(str, f.shape)), f.equation) for f in graph.factors]
@@ -28,7 +28,7 @@ def _domain(variable: Variable, most: int = 6) -> str:
     return labels if variable.cardinality <= most else f"{labels}, … ({variable.cardinality} in all)"
 
 
-def _role(graph: FactorGraph, variable: Variable) -> str:
+def _role(graph: GraphStructure, variable: Variable) -> str:
     if variable.name in graph.evidence:
         return f"observed: {shown(graph.evidence[variable.name])}"
     return "observed" if variable.observed else "latent"

@@ -1,0 +1,25 @@
+"""What an engine leaves behind."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from ...model import FloatArray
+
+
+class Solution(Protocol):
+    """What an engine leaves behind: it answers any joint over the variables of its graph."""
+
+    @property
+    def log_evidence(self) -> float:
+        """log Z."""
+        ...
+
+    def joint(self, names: Sequence[str]) -> FloatArray:
+        """P(names | evidence), one axis a name."""
+        ...
+
+    def entropy(self) -> float:
+        """Entropy of the posterior over all variables, in nats."""
+        ...
