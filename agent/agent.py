@@ -17,10 +17,12 @@ from ..inference.rivals import DECISIVE, Rivals, advance_rivals, certain_of, riv
 from ..model import FactorGraph
 from ..model.cognitive_map import CognitiveMap
 from ..model.errors import CogmapError
+from ..model.growth_event import GrowthEvent
 from ..model.labels import decode, encode
 from ..model.map_state import map_arrays, restore_map
 from ..model.motions import Motions, MotionSpec
 from ..model.slices import Slice, take_slice, window_graph
+from ..model.updates import updates
 from ..planning import CHOICES, POLICIES, LocalCache, MapGuided, Plan, Planner, Preferences
 from .mapper import Mapper
 from .past import past_state, restore_past, restore_rivals, rivals_state
@@ -157,14 +159,14 @@ class Agent:
             CogmapError: the observation lacks a key, or has a wrong number of doors.
         """
         label, open_ = perceive(observation, self.map.motions)
-        grown = len(self.map.growth)
+        cursor = len(self.map.changes)
         self.map.grow_time(step=self._steps)
         sight = self.map.new_sight(label, step=self._steps)
         evidence = self._infer(sight, open_)
         self._remember(evidence)
         self._learn(evidence)
         self._choose(open_)
-        self._record(label, open_, grown)
+        self._record(label, open_, cursor)
         self._action, self._open = self.plan.action, open_
         self._steps += 1
         return self.plan.action
@@ -204,7 +206,7 @@ class Agent:
             "rng": self._rng.bit_generator.state,
             "belief": belief,
             "rivals": rivals_state(self._rivals),
-            **past_state(self._mapper),
+            "recent": past_state(self._mapper),
             "window": window,
             "choice": choice_state(self._choice),
         }
@@ -228,7 +230,7 @@ class Agent:
         agent._open = tuple(header["open"])
         agent._rng.bit_generator.state = header["rng"]
         agent._rivals = restore_rivals(header["rivals"], len(agent.map.motions.displacements[0]))
-        restore_past(agent._mapper, header)
+        restore_past(agent._mapper, header["recent"])
         agent._belief = restore_belief(header["belief"], arrays)
         agent._window.extend(restore_window(header["window"], arrays))
         agent._choice = restore_choice(header.get("choice"))  # files of before have none
@@ -353,8 +355,9 @@ class Agent:
         places = {place: weight * value for place, value in wishes.places.items()}
         return Preferences(sights=sights, places=places, collision_cost=self.settings.collision_cost)
 
-    def _record(self, label: Hashable, open_: tuple[bool, ...], grown: int) -> None:
+    def _record(self, label: Hashable, open_: tuple[bool, ...], cursor: int) -> None:
         belief, plan_ = self.belief, self.plan
+        entries = self.map.changes.since(cursor)[0] or ()
         self.trace.append(
             StepRecord(
                 step=self._steps,
@@ -369,8 +372,8 @@ class Agent:
                 evidence=belief.evidence,
                 complexity=belief.complexity,
                 accuracy=belief.accuracy,
-                grown=tuple(self.map.growth[grown:]),
-                learned=self._mapper.take_lessons(),
+                grown=tuple(entry for entry in entries if isinstance(entry, GrowthEvent)),
+                learned=tuple(updates(entries)),
                 policy=tuple(plan_.policy.tolist()),
                 probability=float(plan_.probability[plan_.chosen]),
                 G=plan_.expected_free_energy.row(plan_.chosen),

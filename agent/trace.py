@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass
 
-from ..model.growth_log import GrowthEvent
-from ..model.lesson import Lesson
+from ..model.growth_event import GrowthEvent
+from ..model.updates import ParameterUpdate
 from ..planning import Term
 
 
@@ -51,7 +51,7 @@ class StepRecord:
     complexity: float
     accuracy: float
     grown: tuple[GrowthEvent, ...]
-    learned: tuple[Lesson, ...]
+    learned: tuple[ParameterUpdate, ...]
     policy: tuple[int, ...]
     probability: float
     G: dict[str, float]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .changes import Branch, Change, Changes
 from .cognitive_map import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, CognitiveMap, Priors
 from .dirichlet import EMPTY, SparseDirichlet
 from .distinct import distinct
@@ -26,15 +27,15 @@ from .graph import (
     table,
 )
 from .growth import GROWTHS, Growth, growth_named
-from .growth_log import GrowthEvent
+from .growth_event import GrowthEvent
 from .growth_table import GrownPlace, GrowthDifference, growth_between, growth_table
 from .labels import decode, encode, identity, plain, shown
 from .learning import TABLE_RATES, TEXT_RATES, Learner, Rates
-from .lesson import Lesson
 from .map_tables import map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .slices import Slice, take_slice, window_graph
+from .updates import ParameterUpdate, updates
 
 __all__ = [
     "BLOCKED",
@@ -46,6 +47,9 @@ __all__ = [
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
+    "Branch",
+    "Change",
+    "Changes",
     "CogmapError",
     "CognitiveMap",
     "ConditionalTable",
@@ -61,9 +65,9 @@ __all__ = [
     "LabelledTable",
     "LearnableTable",
     "Learner",
-    "Lesson",
     "MotionSpec",
     "Motions",
+    "ParameterUpdate",
     "Position",
     "Priors",
     "Rates",
@@ -90,5 +94,6 @@ __all__ = [
     "sparse_values",
     "table",
     "take_slice",
+    "updates",
     "window_graph",
 ]

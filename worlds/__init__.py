@@ -1,12 +1,14 @@
-"""Where an agent lives: room mazes as Gymnasium environments, and exact oracles."""
+"""Where an agent lives: room mazes and graphs as Gymnasium environments, noise in them, and oracles."""
 
 from __future__ import annotations
 
+from .base import PlaceEnv
 from .builtin import MAZES
 from .drawing import draw, label_colour
 from .environment import MazeEnv
 from .errors import WorldError
 from .generate import comb, hall, random_maze, rings, spiral
+from .graph import POSES, GraphWorld, Layout, read_graph
 from .labyrinth import labyrinth
 from .load import load_world, register_worlds
 from .maze import Door, Label, Maze, Position
@@ -20,17 +22,21 @@ __all__ = [
     "FORMATS",
     "GRID",
     "MAZES",
+    "POSES",
     "CanClose",
     "CanDisplace",
     "Chart",
     "Door",
+    "GraphWorld",
     "HasChart",
     "Label",
+    "Layout",
     "Maze",
     "MazeEnv",
     "Motions",
     "Observation",
     "Place",
+    "PlaceEnv",
     "Position",
     "World",
     "WorldError",
@@ -47,6 +53,7 @@ __all__ = [
     "parse_maze",
     "place_of",
     "random_maze",
+    "read_graph",
     "read_maze",
     "register_worlds",
     "rings",

@@ -7,15 +7,21 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import gymnasium as gym
+from gymnasium import spaces
 
 from .closures import Closures, Door
 from .errors import WorldError
+from .maze import Maze
 from .motions import Motions
 from .protocol import Chart, Observation, Place
 
 Action = Any
 
 _OPTIONS = frozenset({"start", "keep_closed"})
+
+
+class NoMazeError(WorldError, AttributeError):
+    """The world is no maze; `hasattr(world, "maze")` is false."""
 
 
 class PlaceEnv(gym.Env[Observation, Action]):
@@ -47,6 +53,17 @@ class PlaceEnv(gym.Env[Observation, Action]):
     def moved(self, place: Place, way: Any, ahead: Place | None) -> dict[str, Any]:
         """Note that the agent took `way` from `place`, and return what `info` tells of it."""
         return {}
+
+    @property
+    def maze(self) -> Maze:
+        """The maze, where the chart is one.
+
+        Raises:
+            WorldError: it is none.
+        """
+        if not isinstance(self.chart, Maze):
+            raise NoMazeError(f"{self.chart.name!r} is no maze, and a maze is needed here; give one")
+        return self.chart
 
     @property
     def place(self) -> Any:
@@ -101,8 +118,8 @@ class PlaceEnv(gym.Env[Observation, Action]):
         """
         place = self.place
         exits = self._closures.exits(place)
-        way = _way(action, tuple(exits))
-        ahead = exits[way]
+        way = self._way(action, tuple(exits))
+        ahead = exits.get(way)
         if ahead is not None:
             self._place = ahead
         told = self.moved(place, way, ahead)
@@ -161,6 +178,18 @@ class PlaceEnv(gym.Env[Observation, Action]):
         """
         self._closures.doors.discard(self._closures.door(a, b))
 
+    def _way(self, action: Any, ways: tuple[Any, ...]) -> Any:
+        """What the action is called here; None of an action that other places have."""
+        count = self.action_space.n if isinstance(self.action_space, spaces.Discrete) else len(ways)
+        try:
+            index = operator.index(action)
+        except TypeError:
+            index = -1
+        if not 0 <= index < count:
+            named = ", ".join(map(str, ways[:8])) + (", ..." if len(ways) > 8 else "")
+            raise WorldError(f"no action {action!r}; use 0 to {len(ways) - 1} ({named})")
+        return ways[index] if index < len(ways) else None
+
     def _random_room(self, closures: Closures) -> Place:
         rooms = self.chart.places
         if closures.rooms:
@@ -168,14 +197,3 @@ class PlaceEnv(gym.Env[Observation, Action]):
         if not rooms:
             raise WorldError(f"every room of {self.chart.name!r} is closed; open one, or reset without keep_closed")
         return rooms[int(self.np_random.integers(len(rooms)))]
-
-
-def _way(action: Any, ways: tuple[Any, ...]) -> Any:
-    try:
-        index = operator.index(action)
-    except TypeError:
-        index = -1
-    if not 0 <= index < len(ways):
-        named = ", ".join(map(str, ways[:8])) + (", ..." if len(ways) > 8 else "")
-        raise WorldError(f"no action {action!r}; use 0 to {len(ways) - 1} ({named})")
-    return ways[index]

@@ -42,7 +42,6 @@ class MazeEnv(PlaceEnv):
         if render_mode is not None and render_mode not in self.metadata["render_modes"]:
             raise WorldError(f"unknown render mode {render_mode!r}; use 'rgb_array' or None")
         super().__init__(maze, GRID)
-        self.maze = maze
         self.render_mode = render_mode
         self.action_space = spaces.Discrete(len(GRID.names))
         self.observation_space = spaces.Dict(

@@ -47,18 +47,14 @@ class LocalCache:
         visits: visits, at most, that plans ask the information of: N.
     """
 
-    __slots__ = ("_entered", "_map", "_outcomes", "_positions", "_read", "_sights", "_ways", "visits")
+    __slots__ = ("_map", "_outcomes", "_read", "_sights", "_ways", "visits")
 
     def __init__(self, map_: MapView, visits: int) -> None:
         self.visits = visits
         self._map = map_
-        self._ways, self._sights, self._positions = (
-            Rows(self._new_ways),
-            Rows(self._new_sights),
-            Rows(self._new_positions),
-        )
-        self._read = [-1, -1, -1]  # of the journals of A_o, A_p, B_s
-        self._outcomes = self._entered = 0
+        self._ways, self._sights = Rows(self._new_ways), Rows(self._new_sights)
+        self._read = -1  # of the log of changes
+        self._outcomes = 0
 
     def check(self, map_: MapView, look_ahead: int) -> None:
         """Raise `CogmapError` unless it is of this map, and tells of enough visits for this look-ahead."""
@@ -69,15 +65,12 @@ class LocalCache:
 
     def refresh(self) -> None:
         """Forget what has changed since the last call."""
-        journals = self._map.A_o.journal, self._map.A_p.journal, self._map.B_s.journal
-        news = [journal.since(read) for journal, read in zip(journals, self._read, strict=True)]
-        (of_sights, of_positions, of_ways), self._read = (rows for rows, _ in news), [read for _, read in news]
-        self._sights.forget(of_sights if self._map.A_o.outcomes == self._outcomes else None)
-        self._positions.forget(of_positions)
-        entered, size = self._map.visited_places, len(self._map.motions)
-        new = entered[self._entered :].tolist()
-        self._ways.forget(None if of_ways is None else [row // size for row in of_ways] + new)
-        self._outcomes, self._entered = self._map.A_o.outcomes, len(entered)
+        map_, read = self._map, self._read
+        ways, _ = map_.changed_places(read, map_.B_s, map_.A_p, map_.visits)
+        sights, self._read = map_.changed_places(read, map_.A_o)
+        self._ways.forget(ways)
+        self._sights.forget(sights if map_.A_o.outcomes == self._outcomes else None)
+        self._outcomes = map_.A_o.outcomes
 
     def ways(self, places: Ints) -> Ways:
         """The ways that leave `places`."""
@@ -90,29 +83,37 @@ class LocalCache:
 
     def information(self, places: Ints) -> Mapping[str, Floats]:
         """What visits teach of A_o, of A_p and, by their ways, of B_s, `[n, N + 1]` nats each."""
-        return {
-            "sight": self._sights.columns(places, 0)[0],
-            "position": self._positions.columns(places, 0)[0],
-            "transition": self._ways.columns(places, 4)[0],
-        }
+        ways, positions = self._ways.columns(places, 4, 5)
+        return {"sight": self._sights.columns(places, 0)[0], "position": positions, "transition": ways}
 
     def positions(self, places: Ints) -> Floats:
         """`[n, D]` where each place is; NaN where nobody knows."""
-        return self._positions.columns(places, 1)[0]
+        return self._ways.columns(places, 6)[0]
 
     def unseen(self) -> Floats:
         """`[N + 1]` what visits teach of A_o in a place never imagined."""
         return _row_information(np.array([self._map.A_o.background, self._map.A_o.outcomes]).tobytes(), self.visits)
 
     def _new_ways(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
-        size = len(self._map.motions)
-        keys, alpha, _ = self._map.B_s.concentration(self._map.rows_of(places))
+        map_, size = self._map, len(self._map.motions)
+        keys, alpha, _ = map_.B_s.concentration(map_.rows_of(places))
         keys, alpha = keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
         ways = Ways.of(places, keys, alpha / alpha.sum(axis=2, keepdims=True))
         # a look teaches nothing where a visit has shown all it can, and no place lies beyond
-        shown = self._map.visited[places][:, None] & (keys == ELSEWHERE).any(axis=2)
-        information = (_information(alpha, self.visits) * ~shown[..., None]).sum(axis=1)
-        return ways.successors, ways.probability, ways.likely, ways.blocked, information
+        shown = map_.visited[places][:, None] & (keys == ELSEWHERE).any(axis=2)
+        of_ways = (_information(alpha, self.visits) * ~shown[..., None]).sum(axis=1)
+        of_positions = _information(map_.A_p.concentration(places)[1], self.visits)
+        unknown = (np.nan,) * len(map_.motions.displacements[0])
+        positions = [unknown if (at := map_.position(place)) is None else at for place in places.tolist()]
+        return (
+            ways.successors,
+            ways.probability,
+            ways.likely,
+            ways.blocked,
+            of_ways,
+            of_positions,
+            np.array(positions, dtype=np.float64).reshape(len(places), -1),
+        )
 
     def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         _, alpha, others = self._map.A_o.concentration(places)
@@ -121,12 +122,6 @@ class LocalCache:
         many = np.ones((len(places), slots + 1))
         many[:, -1] = others
         return (_information(alpha, self.visits, many),)
-
-    def _new_positions(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
-        unknown = (np.nan,) * len(self._map.motions.displacements[0])
-        found = [unknown if (at := self._map.position(place)) is None else at for place in places.tolist()]
-        information = _information(self._map.A_p.concentration(places)[1], self.visits)
-        return information, np.array(found, dtype=np.float64).reshape(len(places), len(unknown))
 
 
 def _information(alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:

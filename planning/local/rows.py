@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -26,7 +26,7 @@ class Rows:
         self._known = np.zeros(0, dtype=np.bool_)
         self._columns: list[NDArray[Any]] = []
 
-    def forget(self, rows: Sequence[int] | None = None) -> None:
+    def forget(self, rows: Iterable[int] | None = None) -> None:
         """These rows, or all of them, are worked out again when they are next asked for."""
         if rows is None:
             self._known[:] = False

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Collection, Sequence
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,24 +14,11 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-class Changes(Protocol):
-    """Which rows of a table have changed."""
-
-    def since(self, read: int) -> tuple[list[int] | None, int]:
-        """The rows that changed since position `read` (None: any may have), and the position now."""
-        ...
-
-
 class Table(Protocol):
     """Rows of Dirichlet counts; see `SparseDirichlet`."""
 
     background: float
     outcomes: int
-
-    @property
-    def journal(self) -> Changes:
-        """What has changed."""
-        ...
 
     def keys(self, rows: Ints | slice) -> Ints:
         """`[n, slots]` outcomes that have counts of their own, below -1 where a slot is unused."""
@@ -89,6 +76,15 @@ class MapView(Protocol):
     @property
     def visited_places(self) -> Ints:
         """The places ever entered, in the order of their first visit."""
+        ...
+
+    @property
+    def visits(self) -> Any:
+        """What `changed_places` is asked about, for first visits."""
+        ...
+
+    def changed_places(self, cursor: int, *stores: Any) -> tuple[Collection[int] | None, int]:
+        """The places of which something in these tables changed since `cursor`, None for any, and the next cursor."""
         ...
 
     def rows_of(self, places: Ints) -> Ints:
