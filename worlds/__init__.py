@@ -10,9 +10,10 @@ from .errors import WorldError
 from .generate import comb, hall, random_maze, rings, spiral
 from .graph import POSES, GraphWorld, Layout, read_graph
 from .labyrinth import labyrinth
-from .load import load_world, register_worlds
+from .load import load_world, register_worlds, world_of
 from .maze import Door, Label, Maze, Position
 from .motions import GRID, Motions
+from .noise import NOISES, NoisyWorld
 from .oracle import covering_steps, covering_walk, shortest_path
 from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place, World, offered, place_of
 from .text import format_maze, parse_maze
@@ -22,6 +23,7 @@ __all__ = [
     "FORMATS",
     "GRID",
     "MAZES",
+    "NOISES",
     "POSES",
     "CanClose",
     "CanDisplace",
@@ -34,6 +36,7 @@ __all__ = [
     "Maze",
     "MazeEnv",
     "Motions",
+    "NoisyWorld",
     "Observation",
     "Place",
     "PlaceEnv",
@@ -59,6 +62,7 @@ __all__ = [
     "rings",
     "shortest_path",
     "spiral",
+    "world_of",
 ]
 
 register_worlds()

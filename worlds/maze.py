@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from .errors import WorldError
-from .motions import GRID
+from .motions import GRID, Motions
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -58,6 +58,11 @@ class Maze:
     def __reduce__(self) -> tuple[type[Maze], tuple[str, dict[Position, Label], frozenset[Door]]]:
         # a MappingProxyType cannot be pickled
         return Maze, (self.name, dict(self.sights), self.walls)
+
+    @property
+    def motions(self) -> Motions:
+        """The actions of an agent there: `GRID`."""
+        return GRID
 
     @property
     def places(self) -> tuple[Position, ...]:

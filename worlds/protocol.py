@@ -52,6 +52,11 @@ class Chart(Protocol):
         ...
 
     @property
+    def motions(self) -> Motions:
+        """The actions of an agent there."""
+        ...
+
+    @property
     def sights(self) -> Mapping[Any, Any]:
         """The label of each place; a tuple of labels where there are several sensors."""
         ...
