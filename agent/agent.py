@@ -23,11 +23,7 @@ from ..model.map_state import map_arrays, restore_map
 from ..model.motions import Motions, MotionSpec
 from ..model.slices import Slice, take_slice, window_graph
 from ..model.updates import updates
-from ..planning import Plan
-from ..planning.choice import consider
-from ..planning.horizon import cut_reach
-from ..planning.outlook import Outlook
-from ..planning.preferences import Preferences
+from ..planning import CHOICES, POLICIES, LocalCache, MapGuided, Plan, Planner, Preferences
 from .mapper import Mapper
 from .past import past_state, restore_past, restore_rivals, rivals_state
 from .perception import perceive
@@ -70,7 +66,9 @@ class Agent:
         self.map = CognitiveMap(Motions.of(motions), priors=self.settings.priors)
         self.trace: list[StepRecord] = []
         self._rng = _generator(seed)
-        self._mapper, self._outlook = Mapper(self.map, self.settings), Outlook(self.map, self.settings.look_ahead)
+        self._planner = _planner(self.settings)
+        self._planner.check(self.map.motions, self.settings.look_ahead)
+        self._mapper, self._cache = Mapper(self.map, self.settings), LocalCache(self.map, self.settings.look_ahead)
         self._window: deque[Slice] = deque(maxlen=self.settings.window + 1)
         self._pending = 0
         self._belief: Belief | None = None
@@ -222,7 +220,10 @@ class Agent:
         agent.map = CognitiveMap(Motions.of(motions), priors=agent.settings.priors)
         labels = ([decode(label) for label in header[name]] for name in ("sights", "positions"))
         restore_map(agent.map, arrays, *labels)
-        agent._mapper, agent._outlook = Mapper(agent.map, agent.settings), Outlook(agent.map, agent.settings.look_ahead)
+        agent._mapper, agent._cache = (
+            Mapper(agent.map, agent.settings),
+            LocalCache(agent.map, agent.settings.look_ahead),
+        )
         agent._goals = {decode(label): value for label, value in header["goals"]}
         agent._goal_places = dict(header["goal_places"])
         agent._steps, agent._pending, agent._action = header["steps"], header["pending"], header["action"]
@@ -329,25 +330,19 @@ class Agent:
     def _planned(self, open_: tuple[bool, ...], wishes: Wishes, rng: np.random.Generator) -> Plan:
         settings = self.settings
         places, q = self.belief.message.by_place
-        reach = cut_reach(
+        return self._planner.plan(
             self.map,
             places,
             q,
             open_=open_,
             look_ahead=settings.look_ahead,
+            rng=rng,
             preferences=self._preferences(wishes),
+            precision=settings.precision,
             discount=settings.discount,
             information_weight=settings.information_weight,
             starts=settings.starts,
-            outlook=self._outlook,
-        )
-        return consider(
-            reach,
-            generator=settings.policies,
-            precision=settings.precision,
-            choice=settings.choice,
-            rng=rng,
-            beam=settings.beam,
+            cache=self._cache,
         )
 
     def _preferences(self, wishes: Wishes) -> Preferences:
@@ -382,11 +377,18 @@ class Agent:
                 policy=tuple(plan_.policy.tolist()),
                 probability=float(plan_.probability[plan_.chosen]),
                 G=plan_.expected_free_energy.row(plan_.chosen),
+                terms=plan_.expected_free_energy.terms,
                 policies=len(plan_.policies),
                 action=plan_.action,
                 retracted=self._retracted,
             )
         )
+
+
+def _planner(settings: Settings) -> Planner:
+    beam = settings.policies == MapGuided.name
+    policies = MapGuided(beam=settings.beam) if beam else POLICIES[settings.policies]()
+    return Planner(policies=policies, choice=CHOICES[settings.choice]())
 
 
 def _generator(seed: Seed) -> np.random.Generator:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ..model.growth_event import GrowthEvent
 from ..model.updates import ParameterUpdate
+from ..planning import Term
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,7 @@ class StepRecord:
         policy: the chosen policy, by action index.
         probability: its P(policy).
         G: its expected free energy, term by term, and their sum under `G`, in nats.
+        terms: what G is the sum of.
         policies: how many policies were considered.
         action: the action taken.
         retracted: the step since which it found to have been elsewhere, taking back what it had learned; or None.
@@ -53,6 +55,7 @@ class StepRecord:
     policy: tuple[int, ...]
     probability: float
     G: dict[str, float]
+    terms: tuple[Term, ...]
     policies: int
     action: int
     retracted: int | None = None

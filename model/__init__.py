@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from .changes import Branch, Change, Changes
 from .cognitive_map import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, CognitiveMap, Priors
-from .dirichlet import SparseDirichlet
+from .dirichlet import EMPTY, SparseDirichlet
+from .distinct import distinct
 from .domain import Domain
 from .errors import CogmapError
 from .graph import (
@@ -39,6 +40,7 @@ from .updates import ParameterUpdate, updates
 __all__ = [
     "BLOCKED",
     "ELSEWHERE",
+    "EMPTY",
     "GROWTHS",
     "MOST_DRAWN",
     "OPEN",
@@ -74,6 +76,7 @@ __all__ = [
     "SparseValues",
     "Variable",
     "decode",
+    "distinct",
     "encode",
     "equation",
     "graph_svg",
