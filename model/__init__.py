@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from .changes import Branch, Change, Changes
 from .cognitive_map import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, CognitiveMap, Priors
-from .dirichlet import SparseDirichlet
+from .dirichlet import EMPTY, SparseDirichlet
+from .distinct import distinct
 from .domain import Domain
 from .errors import CogmapError
 from .graph import (
@@ -28,19 +30,20 @@ from .graph import (
     table,
 )
 from .growth import GROWTHS, Growth, growth_named
-from .growth_log import GrowthEvent
+from .growth_event import GrowthEvent
 from .growth_table import GrownPlace, GrowthDifference, growth_between, growth_table
 from .labels import decode, encode, identity, plain, shown
 from .learning import TABLE_RATES, TEXT_RATES, Learner, Rates
-from .lesson import Lesson
 from .map_tables import map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .slices import Slice, take_slice, window_graph
+from .updates import ParameterUpdate, updates
 
 __all__ = [
     "BLOCKED",
     "ELSEWHERE",
+    "EMPTY",
     "GROWTHS",
     "MOST_DRAWN",
     "OPEN",
@@ -48,6 +51,9 @@ __all__ = [
     "TEXT_RATES",
     "UNKNOWN",
     "AllEvidence",
+    "Branch",
+    "Change",
+    "Changes",
     "CogmapError",
     "CognitiveMap",
     "ConditionalTable",
@@ -64,9 +70,9 @@ __all__ = [
     "LabelledTable",
     "LearnableTable",
     "Learner",
-    "Lesson",
     "MotionSpec",
     "Motions",
+    "ParameterUpdate",
     "Position",
     "Priors",
     "Rates",
@@ -75,6 +81,7 @@ __all__ = [
     "SparseValues",
     "Variable",
     "decode",
+    "distinct",
     "encode",
     "equation",
     "graph_svg",
@@ -93,5 +100,6 @@ __all__ = [
     "sparse_values",
     "table",
     "take_slice",
+    "updates",
     "window_graph",
 ]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 from .cognitive_map import CognitiveMap
 from .errors import CogmapError
 from .graph import LabelledTable
-from .growth_log import GrowthEvent
+from .growth_event import GrowthEvent
 from .labels import shown
 from .motions import Position
 
