@@ -14,18 +14,16 @@ from numpy.typing import NDArray
 from ..inference.filter import advance, begin
 from ..inference.message import Belief, Evidence
 from ..inference.rivals import DECISIVE, Rivals, advance_rivals, certain_of, rivals_of
+from ..model import FactorGraph
 from ..model.cognitive_map import CognitiveMap
 from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
+from ..model.growth_event import GrowthEvent
 from ..model.labels import decode, encode
 from ..model.map_state import map_arrays, restore_map
 from ..model.motions import Motions, MotionSpec
 from ..model.slices import Slice, take_slice, window_graph
-from ..planning import Plan
-from ..planning.choice import consider
-from ..planning.horizon import cut_reach
-from ..planning.outlook import Outlook
-from ..planning.preferences import Preferences
+from ..model.updates import updates
+from ..planning import CHOICES, POLICIES, LocalCache, MapGuided, Plan, Planner, Preferences
 from .mapper import Mapper
 from .past import past_state, restore_past, restore_rivals, rivals_state
 from .perception import perceive
@@ -68,7 +66,9 @@ class Agent:
         self.map = CognitiveMap(Motions.of(motions), priors=self.settings.priors)
         self.trace: list[StepRecord] = []
         self._rng = _generator(seed)
-        self._mapper, self._outlook = Mapper(self.map, self.settings), Outlook(self.map, self.settings.look_ahead)
+        self._planner = _planner(self.settings)
+        self._planner.check(self.map.motions, self.settings.look_ahead)
+        self._mapper, self._cache = Mapper(self.map, self.settings), LocalCache(self.map, self.settings.look_ahead)
         self._window: deque[Slice] = deque(maxlen=self.settings.window + 1)
         self._pending = 0
         self._belief: Belief | None = None
@@ -159,14 +159,14 @@ class Agent:
             CogmapError: the observation lacks a key, or has a wrong number of doors.
         """
         label, open_ = perceive(observation, self.map.motions)
-        grown = len(self.map.growth)
+        cursor = len(self.map.changes)
         self.map.grow_time(step=self._steps)
         sight = self.map.new_sight(label, step=self._steps)
         evidence = self._infer(sight, open_)
         self._remember(evidence)
         self._learn(evidence)
         self._choose(open_)
-        self._record(label, open_, grown)
+        self._record(label, open_, cursor)
         self._action, self._open = self.plan.action, open_
         self._steps += 1
         return self.plan.action
@@ -206,7 +206,7 @@ class Agent:
             "rng": self._rng.bit_generator.state,
             "belief": belief,
             "rivals": rivals_state(self._rivals),
-            **past_state(self._mapper),
+            "recent": past_state(self._mapper),
             "window": window,
             "choice": choice_state(self._choice),
         }
@@ -220,14 +220,17 @@ class Agent:
         agent.map = CognitiveMap(Motions.of(motions), priors=agent.settings.priors)
         labels = ([decode(label) for label in header[name]] for name in ("sights", "positions"))
         restore_map(agent.map, arrays, *labels)
-        agent._mapper, agent._outlook = Mapper(agent.map, agent.settings), Outlook(agent.map, agent.settings.look_ahead)
+        agent._mapper, agent._cache = (
+            Mapper(agent.map, agent.settings),
+            LocalCache(agent.map, agent.settings.look_ahead),
+        )
         agent._goals = {decode(label): value for label, value in header["goals"]}
         agent._goal_places = dict(header["goal_places"])
         agent._steps, agent._pending, agent._action = header["steps"], header["pending"], header["action"]
         agent._open = tuple(header["open"])
         agent._rng.bit_generator.state = header["rng"]
         agent._rivals = restore_rivals(header["rivals"], len(agent.map.motions.displacements[0]))
-        restore_past(agent._mapper, header)
+        restore_past(agent._mapper, header["recent"])
         agent._belief = restore_belief(header["belief"], arrays)
         agent._window.extend(restore_window(header["window"], arrays))
         agent._choice = restore_choice(header.get("choice"))  # files of before have none
@@ -327,25 +330,19 @@ class Agent:
     def _planned(self, open_: tuple[bool, ...], wishes: Wishes, rng: np.random.Generator) -> Plan:
         settings = self.settings
         places, q = self.belief.message.by_place
-        reach = cut_reach(
+        return self._planner.plan(
             self.map,
             places,
             q,
             open_=open_,
             look_ahead=settings.look_ahead,
+            rng=rng,
             preferences=self._preferences(wishes),
+            precision=settings.precision,
             discount=settings.discount,
             information_weight=settings.information_weight,
             starts=settings.starts,
-            outlook=self._outlook,
-        )
-        return consider(
-            reach,
-            generator=settings.policies,
-            precision=settings.precision,
-            choice=settings.choice,
-            rng=rng,
-            beam=settings.beam,
+            cache=self._cache,
         )
 
     def _preferences(self, wishes: Wishes) -> Preferences:
@@ -358,8 +355,9 @@ class Agent:
         places = {place: weight * value for place, value in wishes.places.items()}
         return Preferences(sights=sights, places=places, collision_cost=self.settings.collision_cost)
 
-    def _record(self, label: Hashable, open_: tuple[bool, ...], grown: int) -> None:
+    def _record(self, label: Hashable, open_: tuple[bool, ...], cursor: int) -> None:
         belief, plan_ = self.belief, self.plan
+        entries = self.map.changes.since(cursor)[0] or ()
         self.trace.append(
             StepRecord(
                 step=self._steps,
@@ -374,16 +372,23 @@ class Agent:
                 evidence=belief.evidence,
                 complexity=belief.complexity,
                 accuracy=belief.accuracy,
-                grown=tuple(self.map.growth[grown:]),
-                learned=self._mapper.take_lessons(),
+                grown=tuple(entry for entry in entries if isinstance(entry, GrowthEvent)),
+                learned=tuple(updates(entries)),
                 policy=tuple(plan_.policy.tolist()),
                 probability=float(plan_.probability[plan_.chosen]),
                 G=plan_.expected_free_energy.row(plan_.chosen),
+                terms=plan_.expected_free_energy.terms,
                 policies=len(plan_.policies),
                 action=plan_.action,
                 retracted=self._retracted,
             )
         )
+
+
+def _planner(settings: Settings) -> Planner:
+    beam = settings.policies == MapGuided.name
+    policies = MapGuided(beam=settings.beam) if beam else POLICIES[settings.policies]()
+    return Planner(policies=policies, choice=CHOICES[settings.choice]())
 
 
 def _generator(seed: Seed) -> np.random.Generator:

@@ -4,36 +4,51 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
+from ..inference import infer
 from ..inference.message import Belief, Evidence
-from ..inference.query import infer
+from ..model.changes import STEPS
 from ..model.cognitive_map import CognitiveMap
 from ..model.growth import growth_named
 from ..model.learning import Learner
-from ..model.lesson import Lesson
 from ..model.motions import Motions, Position
 from ..model.slices import Slice, window_graph
 from .settings import Settings
 
-MEMORY = 50
-"""Steps that can be taken back."""
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A time step that can be taken back.
+
+    Attributes:
+        step: the time step.
+        mark: of the log of changes, before anything was learned from it.
+        visits: number of visited places then.
+        evidence: what it brought.
+    """
+
+    step: int
+    mark: int
+    visits: int
+    evidence: Evidence
 
 
 class Mapper:
     """Learning and growth of one map, under one set of settings.
 
     Attributes:
-        learner: teaches the map, and can take back its last steps.
-        recent: those steps and their evidence.
+        learner: teaches the map.
+        recent: the steps that can be taken back.
     """
 
     def __init__(self, map_: CognitiveMap, settings: Settings) -> None:
         self._map = map_
         self._settings = settings
         self._growth = growth_named(settings.growth)
-        self.learner = Learner(map_, settings.rates, memory=MEMORY)
-        self.recent: deque[tuple[int, Evidence]] = deque(maxlen=MEMORY)
+        self.learner = Learner(map_, settings.rates)
+        self.recent: deque[Moment] = deque(maxlen=STEPS)
 
     def wake(self) -> None:
         """The places that exist before anything was seen."""
@@ -41,18 +56,17 @@ class Mapper:
 
     def begin(self, step: int, evidence: Evidence) -> None:
         """A time step begins, with this evidence."""
-        self.learner.begin(step)
-        self.recent.append((step, evidence))
+        self.recent.append(Moment(step, self._map.changes.mark(), len(self._map.visited_places), evidence))
 
     @property
     def remembered(self) -> int:
         """The first time step that can be taken back."""
-        return self.learner.chapters[0].step
+        return self.recent[0].step
 
     @property
     def visits_before(self) -> int:
         """How many places were visited before this time step."""
-        return self.learner.chapters[-1].visits
+        return self.recent[-1].visits
 
     def relive(self, since: int, position: Position, *, step: int) -> int:
         """Take back what was taught from time step `since` on, and teach it along the way that ends at `position`.
@@ -60,8 +74,11 @@ class Mapper:
         Returns:
             The place there. What the present step has to teach is left to `learn`.
         """
-        happened = [evidence for then, evidence in self.recent if then >= since]
-        self.learner.take_back(since, step=step)
+        moments = [moment for moment in self.recent if moment.step >= since]
+        happened = [moment.evidence for moment in moments]
+        self._map.take_back(moments[0].mark, step=step)
+        self.recent.pop()
+        self.begin(step, happened[-1])
         place = self._place_at(_way_back(self._map.motions, happened, position), step=step)
         for now, then in pairwise(happened):
             self._visit(place, now.sight, now.open, 1.0, step=step)
@@ -82,10 +99,6 @@ class Mapper:
     def _place_at(self, position: Position, *, step: int) -> int:
         place = self._map.place_at(position)
         return self._map.new_place(position, step=step) if place is None else place
-
-    def take_lessons(self) -> tuple[Lesson, ...]:
-        """Which counts changed since the last call."""
-        return self.learner.take_lessons()
 
     def enter(self, place: int, action: int, *, step: int) -> None:
         """Before inference: the agent took a door of `place` that was open."""

@@ -11,9 +11,7 @@ import numpy as np
 from ..inference.message import Evidence
 from ..inference.rivals import Rivals
 from ..model.errors import CogmapError
-from ..model.lesson import Lesson
-from ..model.retraction import Chapter
-from .mapper import Mapper
+from .mapper import Mapper, Moment
 
 
 def rivals_state(rivals: Rivals) -> dict[str, list[Any]]:
@@ -37,25 +35,17 @@ def restore_rivals(header: Mapping[str, Sequence[Any]], dimensions: int) -> Riva
     return Rivals(**arrays)
 
 
-def past_state(mapper: Mapper) -> dict[str, list[Any]]:
-    """The steps that the mapper can take back."""
-    chapters = [asdict(chapter) for chapter in mapper.learner.chapters]
-    recent = [[step, asdict(evidence)] for step, evidence in mapper.recent]
-    return {"chapters": chapters, "recent": recent}
+def past_state(mapper: Mapper) -> list[dict[str, Any]]:
+    """The steps that the mapper can take back; their marks are those of the log of changes, the last ones there are."""
+    return [asdict(moment) for moment in mapper.recent]
 
 
-def restore_past(mapper: Mapper, header: Mapping[str, Sequence[Any]]) -> None:
+def restore_past(mapper: Mapper, header: Sequence[Mapping[str, Any]]) -> None:
     """Give a new mapper the steps that `past_state` took apart.
 
     Raises:
         KeyError, TypeError: a part is missing or unknown.
     """
-    chapters = mapper.learner.chapters
-    chapters.clear()
-    for chapter in header["chapters"]:
-        parts: dict[str, Any] = dict(chapter)
-        parts["lessons"] = [Lesson(**lesson) for lesson in chapter["lessons"]]
-        parts["doors"] = [tuple(door) for door in chapter["doors"]]
-        chapters.append(Chapter(**parts))
-    for step, evidence in header["recent"]:
-        mapper.recent.append((int(step), Evidence(**evidence)))
+    for moment in header:
+        parts: dict[str, Any] = {**moment, "evidence": Evidence(**moment["evidence"])}
+        mapper.recent.append(Moment(**parts))

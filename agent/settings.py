@@ -8,14 +8,13 @@ from typing import Any, cast
 
 import numpy as np
 
+from ..inference import ENGINES
 from ..inference.message import FilterOptions
-from ..inference.query import ENGINES
 from ..model.cognitive_map import Priors
 from ..model.errors import CogmapError
 from ..model.growth import GROWTHS
 from ..model.learning import Rates
-from ..planning import CHOICES, GENERATORS
-from ..planning.horizon import STARTS
+from ..planning import CHOICES, POLICIES
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,7 +55,7 @@ class Settings:
     look_ahead: int = 6
     policies: str = "map_guided"
     beam: int = 64
-    starts: int = STARTS
+    starts: int = 32
     precision: float = 16.0
     choice: str = "outward"
     growth: str = "predicted"
@@ -91,7 +90,7 @@ class Settings:
                 for number in value if isinstance(value, tuple) else (value,):
                     fine = isinstance(number, int | float | np.number) and bool(least <= number <= most)
                     _check(fine, name, value, f"use a number from {least:g} to {most:g}")
-        for name, known in (("policies", GENERATORS), ("growth", GROWTHS), ("engine", ENGINES), ("choice", CHOICES)):
+        for name, known in (("policies", POLICIES), ("growth", GROWTHS), ("engine", ENGINES), ("choice", CHOICES)):
             _check(getattr(self, name) in known, name, getattr(self, name), f"choose one of {', '.join(known)}")
 
     def to_dict(self) -> dict[str, Any]:

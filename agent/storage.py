@@ -21,8 +21,8 @@ from ..model.files import write_through
 if TYPE_CHECKING:
     from .agent import Agent
 
-SCHEMA = 2
-"""Version of the layout of the file."""
+SCHEMA, OLDEST = 3, 2
+"""Version of the layout of the file, and the oldest that can be read."""
 
 FORMAT = "cogmap agent"
 
@@ -54,6 +54,8 @@ def load(path: str | PathLike[str]) -> Agent:
 
     arrays = _read(Path(path))
     header = _header(Path(path), arrays)
+    if header["schema"] == 2:
+        _of_schema_2(header, arrays)
     try:
         agent = Agent.from_state(header, arrays)
         _check(agent)
@@ -137,8 +139,15 @@ def _header(path: Path, arrays: dict[str, NDArray[Any]]) -> dict[str, Any]:
         raise CogmapError(f"load: {path} is no saved agent (no header); give a file that save wrote") from error
     if schema < 0:
         raise CogmapError(f"load: {path} is a {header['format']!r}, no saved agent; give a file that save wrote")
-    if schema < SCHEMA:
-        raise CogmapError(f"load: {path} has schema {schema}, older than {SCHEMA}; explore and save again")
+    if schema < OLDEST:
+        raise CogmapError(f"load: {path} has schema {schema}, older than {OLDEST}; explore and save again")
     if schema > SCHEMA:
         raise CogmapError(f"load: {path} has schema {schema}, newer than {SCHEMA}; update cogmap to read it")
     return header
+
+
+def _of_schema_2(header: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> None:
+    """Make it one of the present schema; what was learned before cannot be taken back."""
+    header["recent"] = []
+    arrays["changes.rows"], arrays["changes.first"] = np.zeros((0, 9)), np.zeros(1, dtype=np.int64)
+    arrays["changes.marks"], arrays["changes.undone"] = (np.zeros(n, dtype=np.int64) for n in ((0,), (0, 2)))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass
 
-from ..model.growth_log import GrowthEvent
-from ..model.lesson import Lesson
+from ..model.growth_event import GrowthEvent
+from ..model.updates import ParameterUpdate
+from ..planning import Term
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,6 +32,7 @@ class StepRecord:
         policy: the chosen policy, by action index.
         probability: its P(policy).
         G: its expected free energy, term by term, and their sum under `G`, in nats.
+        terms: what G is the sum of.
         policies: how many policies were considered.
         action: the action taken.
         retracted: the step since which it found to have been elsewhere, taking back what it had learned; or None.
@@ -49,10 +51,11 @@ class StepRecord:
     complexity: float
     accuracy: float
     grown: tuple[GrowthEvent, ...]
-    learned: tuple[Lesson, ...]
+    learned: tuple[ParameterUpdate, ...]
     policy: tuple[int, ...]
     probability: float
     G: dict[str, float]
+    terms: tuple[Term, ...]
     policies: int
     action: int
     retracted: int | None = None

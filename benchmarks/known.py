@@ -21,7 +21,6 @@ def known_agent(maze: Maze, start: Position, *, settings: Settings | None = None
     world.reset(options={"start": start})
     place = 0
     for step, (action, room) in enumerate(depth_first(maze, start)):
-        learner.begin(step)
         if action is not None:
             before, place = place, map_.place_at((room[0] - start[0], room[1] - start[1])) or 0
             learner.transition(before, action, place, 1.0)
@@ -33,7 +32,6 @@ def known_agent(maze: Maze, start: Position, *, settings: Settings | None = None
         for new in growth.look(map_, place, open_, step=step):
             learner.recall(new)
         learner.doors(place, open_, 1.0)
-        learner.take_lessons()
     return agent
 
 

@@ -2,48 +2,81 @@
 
 from __future__ import annotations
 
+from .changes import Branch, Change, Changes
 from .cognitive_map import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, CognitiveMap, Priors
-from .conditional import ConditionalTable, LearnableTable
-from .dirichlet import SparseDirichlet
+from .dirichlet import EMPTY, SparseDirichlet
+from .distinct import distinct
 from .domain import Domain
 from .errors import CogmapError
-from .factor_graph import FactorGraph
-from .factors import Factor, SparseValues
+from .files import make_folder, write_through, write_whole
+from .graph import (
+    MOST_DRAWN,
+    AllEvidence,
+    ConditionalTable,
+    Evidence,
+    Factor,
+    FactorGraph,
+    FloatArray,
+    IntArray,
+    LabelledTable,
+    LearnableTable,
+    SparseValues,
+    Variable,
+    equation,
+    graph_svg,
+    labelled,
+    log_bounds,
+    quoted,
+    sparse_values,
+    table,
+)
 from .growth import GROWTHS, Growth, growth_named
-from .growth_log import GrowthEvent
+from .growth_event import KINDS, GrowthEvent
 from .growth_table import GrownPlace, GrowthDifference, growth_between, growth_table
+from .labels import decode, encode, identity, plain, shown
 from .learning import TABLE_RATES, TEXT_RATES, Learner, Rates
-from .lesson import Lesson
-from .map_tables import map_table
+from .map_graph import LEAST, how_known, map_graph, transitions
+from .map_tables import counts_of, map_table
+from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .slices import Slice, take_slice, window_graph
-from .tables import LabelledTable, labelled, table
-from .variables import Variable
+from .updates import ParameterUpdate, updates
 
 __all__ = [
     "BLOCKED",
     "ELSEWHERE",
+    "EMPTY",
     "GROWTHS",
+    "KINDS",
+    "LEAST",
+    "MOST_DRAWN",
     "OPEN",
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
+    "AllEvidence",
+    "Branch",
+    "Change",
+    "Changes",
     "CogmapError",
     "CognitiveMap",
     "ConditionalTable",
     "Domain",
+    "Evidence",
     "Factor",
     "FactorGraph",
+    "FloatArray",
     "GrownPlace",
     "Growth",
     "GrowthDifference",
     "GrowthEvent",
+    "IntArray",
     "LabelledTable",
     "LearnableTable",
     "Learner",
-    "Lesson",
     "MotionSpec",
     "Motions",
+    "ParameterUpdate",
     "Position",
     "Priors",
     "Rates",
@@ -51,12 +84,33 @@ __all__ = [
     "SparseDirichlet",
     "SparseValues",
     "Variable",
+    "counts_of",
+    "decode",
+    "distinct",
+    "encode",
+    "equation",
+    "graph_svg",
     "growth_between",
     "growth_named",
     "growth_table",
+    "how_known",
+    "html_table",
+    "identity",
     "labelled",
+    "log_bounds",
+    "make_folder",
+    "map_graph",
     "map_table",
+    "plain",
+    "quoted",
+    "safe",
+    "shown",
+    "sparse_values",
     "table",
     "take_slice",
+    "transitions",
+    "updates",
     "window_graph",
+    "write_through",
+    "write_whole",
 ]

@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .changes import Change, Changes, Store
 from .column import Column
-from .dirichlet import SparseDirichlet
+from .dirichlet import EMPTY, SparseDirichlet
 from .domain import Domain
 from .errors import CogmapError
-from .growth_log import GrowthEvent, GrowthKind
+from .growth_event import GrowthEvent, GrowthKind
 from .motions import Motions, Position
 from .sight_index import SightIndex
+from .visits import Visits
 
 if TYPE_CHECKING:
     from networkx import MultiDiGraph
     from pandas import DataFrame
 
-    from .tables import LabelledTable
+    from .graph import LabelledTable
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -61,23 +63,25 @@ class CognitiveMap:
     The motion model B_p is not learned: `position_beyond` is p + displacement(a).
     """
 
+    name = "places"
+
     def __init__(self, motions: Motions, *, priors: Priors | None = None) -> None:
         self.motions = motions
         self.priors = priors or Priors()
         self.sights = Domain("sights")
         self.positions = Domain("positions")
-        self.A_o = SparseDirichlet(slots=1, background=self.priors.sight, outcomes=1)
-        self.A_p = SparseDirichlet(slots=1)
-        self.B_s = SparseDirichlet(slots=2)
+        self.changes = log = Changes()
+        size = len(motions)
+        self.A_o = SparseDirichlet(name="A_o", slots=1, background=self.priors.sight, outcomes=1, changes=log)
+        self.A_p = SparseDirichlet(name="A_p", slots=1, changes=log)
+        self.B_s = SparseDirichlet(name="B_s", slots=2, rows_each=size, changes=log)
         self.growth: list[GrowthEvent] = []
-        self._position_of = Column(np.int64)
-        self._place_at = Column(np.int64)
-        self._beyond = Column(np.int64, width=len(motions))
-        self._visited = Column(np.bool_)
-        self._visits = Column(np.int64)
-        self._first_visit = Column(np.int64)
-        self._sensed = Column(np.int8, width=len(motions))
-        self._walked = Column(np.bool_, width=len(motions))
+        self.visits = Visits(log)
+        self._position_of = Column("position_of", np.int64, fill=-1, changes=log)
+        self._place_at = Column("place_at", np.int64, fill=-1, changes=log)
+        self._beyond = Column("beyond", np.int64, width=size, fill=-1)
+        self._sensed = Column("sensed", np.int8, width=size, changes=log)
+        self._walked = Column("walked", np.bool_, width=size, changes=log)
         self._by_sight = SightIndex(self)
 
     # -- reading -------------------------------------------------------------------------------------------
@@ -90,37 +94,43 @@ class CognitiveMap:
     @property
     def visited(self) -> NDArray[np.bool_]:
         """`[S]` whether each place was ever entered."""
-        return self._visited.values.astype(np.bool_, copy=False)
+        return self.visits.visited.values
 
     @property
     def visited_places(self) -> Ints:
         """The places ever entered, in the order of their first visit."""
-        return self._visits.values.astype(np.int64, copy=False)
+        return self.visits.order.values
 
     @property
     def first_visit(self) -> Ints:
         """`[S]` index of each place in `visited_places`; -1 where it was never entered."""
-        return self._first_visit.values.astype(np.int64, copy=False)
+        return self.visits.first.values
 
     @property
     def sensed(self) -> NDArray[np.int8]:
         """`[S, K]` what was last sensed of each door: `UNKNOWN`, `OPEN` or `BLOCKED`."""
-        return self._sensed.values.astype(np.int8, copy=False)
+        return self._sensed.values
 
     @property
     def walked(self) -> NDArray[np.bool_]:
         """`[S, K]` whether each transition was ever walked."""
-        return self._walked.values.astype(np.bool_, copy=False)
+        return self._walked.values
 
     @property
     def position_index(self) -> Ints:
         """`[S]` the number of each place's position; -1 for a place that has none yet."""
-        return self._position_of.values.astype(np.int64, copy=False)
+        return self._position_of.values
 
     @property
     def position_beyond(self) -> Ints:
         """`[P, K]` B_p: the number of the position that each motion leads to; -1 where it has none yet."""
-        return self._beyond.values.astype(np.int64, copy=False)
+        return self._beyond.values
+
+    @property
+    def stores(self) -> tuple[Store, ...]:
+        """All that the log of changes speaks of."""
+        tables = self.A_o, self.A_p, self.B_s
+        return (*tables, self, self.visits, self._position_of, self._place_at, self._sensed, self._walked)
 
     @property
     def columns(self) -> dict[str, Column]:
@@ -129,8 +139,8 @@ class CognitiveMap:
             "position_of": self._position_of,
             "place_at": self._place_at,
             "beyond": self._beyond,
-            "visited": self._visited,
-            "visits": self._visits,
+            "visited": self.visits.visited,
+            "visits": self.visits.order,
             "sensed": self._sensed,
             "walked": self._walked,
         }
@@ -158,6 +168,23 @@ class CognitiveMap:
         The bound is for the visited places besides.
         """
         return self._by_sight.places(sight)
+
+    def changed_places(self, cursor: int, *stores: Store) -> tuple[set[int] | None, int]:
+        """The places of which something has changed since `cursor`, None for any of them, and the cursor to go on from.
+
+        Args:
+            cursor: what the last call gave; -1 at first.
+            stores: only what changed in these, such as `map.B_s`, and places that came or went.
+        """
+        entries, cursor = self.changes.since(cursor)
+        changed: set[int] = set()
+        for entry in entries or ():
+            if isinstance(entry, Change) and (not stores or entry.store in stores or entry.store is self):
+                of = entry.store.touched(entry.where)
+                if of is None:
+                    return None, cursor
+                changed.update(of)
+        return (None if entries is None else changed), cursor
 
     def row(self, place: int, action: int) -> int:
         """Row of `B_s` for `place` under `action`."""
@@ -232,8 +259,8 @@ class CognitiveMap:
         self, name: str, *, action: str | int | None = None, places: Sequence[int] | None = None
     ) -> DataFrame | LabelledTable:
         """`A_o`, `A_p`, or `B_s` of one action, with labels on both axes; see `map_tables.map_table`."""
+        from .graph import table
         from .map_tables import map_table
-        from .tables import table
 
         return table(map_table(self, name, action=action, places=places))
 
@@ -262,8 +289,8 @@ class CognitiveMap:
         if known is not None:
             return known
         index = self.positions.add(position)
-        self._place_at.append(-1)
-        self._beyond.append(-1)
+        self._place_at.resize(index + 1)
+        self._beyond.resize(index + 1)
         for action in range(len(self.motions)):
             there = self.positions.find(self.motions.move(position, action))
             if there is not None:
@@ -278,18 +305,9 @@ class CognitiveMap:
         """Append a place: a value of s, uniform in A_o, one-hot in A_p, its doors unknown in B_s."""
         if position is not None and self.place_at(position) is not None:
             raise CogmapError(f"map: position {position} has place {self.place_at(position)} already; use place_at")
-        place = self.A_o.append(1)
-        self.A_p.append(1)
-        first = self.B_s.append(len(self.motions))
-        for action_ in range(len(self.motions)):
-            self.B_s.expect(first + action_, place, self.priors.transition)
-            if action_ != self.motions.stay:
-                self.B_s.expect(first + action_, ELSEWHERE, self.priors.transition)
-        self._position_of.append(-1)
-        self._visited.append(False)
-        self._first_visit.append(-1)
-        self._sensed.append(UNKNOWN)
-        self._walked.append(False)
+        place = len(self.places)
+        self.put(place, True)
+        self.changes.append(Change(self, place, False, True))
         self._log(step, "place", place, position, source, action)
         if position is not None:
             self._settle(place, position, step)
@@ -307,8 +325,8 @@ class CognitiveMap:
 
     def _settle(self, place: int, position: Position, step: int) -> None:
         index = self.new_position(position, step=step)
-        self._position_of.values[place] = index
-        self._place_at.values[index] = place
+        self._position_of.set(place, index)
+        self._place_at.set(index, place)
         self.A_p.expect(place, index, self.priors.position)
         for action, neighbour in self._neighbours(index):
             self._link(place, action, neighbour)
@@ -324,53 +342,62 @@ class CognitiveMap:
         """What lies beyond a door has become a place of the map: its slot gets the name."""
         self.B_s.rename(self.row(place, action), ELSEWHERE, neighbour)
 
-    def unbind(self, place: int, *, step: int) -> None:
-        """Take a place off its position: the doors of its neighbours lead to nowhere known.
+    def put(self, where: int, value: bool) -> None:
+        """Append the next place, or drop the last one, without telling the log."""
+        places, size = where + value, len(self.motions)
+        for table in (self.A_o, self.A_p):
+            table.resize(places)
+        self.B_s.resize(places * size)
+        for column in (self.visits, self._position_of, self._sensed, self._walked):
+            column.resize(places)
+        if value:
+            keys, prior = np.full((size, 2), ELSEWHERE), np.full((size, 2), self.priors.transition)
+            keys[:, 0], keys[self.motions.stay, 1], prior[self.motions.stay, 1] = where, EMPTY, 0.0
+            self.B_s.begin(slice(where * size, places * size), keys, prior)
+
+    def value(self, numbers: Sequence[float]) -> bool:
+        """Whether it exists, from a file."""
+        return bool(numbers[0])
+
+    def touched(self, where: int) -> Iterable[int]:
+        """The place itself."""
+        return (where,)
+
+    def take_back(self, mark: int, *, step: int) -> None:
+        """Undo everything since `mark`; sights and positions that were met stay in their domains.
 
         Raises:
-            CogmapError: there is no such place, or it has no position.
+            CogmapError: that is longer ago than the log can undo.
         """
-        position = self.position(place)
-        if position is None:
-            raise CogmapError(f"map: place {place} has no position to lose")
-        index = int(self.position_index[place])
-        for action, neighbour in self._neighbours(index):
-            self.B_s.rename(self.row(place, action), neighbour, ELSEWHERE)
-            self.B_s.rename(self.row(neighbour, self.motions.inverse[action]), place, ELSEWHERE)
-        self.A_p.expect(place, index, 0.0)
-        self._place_at.values[index] = -1
-        self._position_of.values[place] = -1
-        self._log(step, "unbind", place, position)
-
-    def shrink(self, *, places: int, visits: int = 0, step: int) -> None:
-        """Drop the places after the first `places`, and the visits after the first `visits`.
-
-        They must have lost their positions, and nothing may be left that was learned of them: `retraction.retract`.
-        """
-        dropped = len(self.places) - places
-        self._visited.values[self.visited_places[visits:]] = False
-        self._first_visit.values[self.visited_places[visits:]] = -1
-        self._visits.shrink(visits)
-        for table, rows in ((self.A_o, places), (self.A_p, places), (self.B_s, places * len(self.motions))):
-            table.shrink(rows)
-        for column in (self._position_of, self._visited, self._first_visit, self._sensed, self._walked):
-            column.shrink(places)
-        self._log(step, "retract", dropped)
+        entries, _ = self.changes.since(mark)
+        before = len(self.places)
+        grown = [entry for entry in entries or () if isinstance(entry, GrowthEvent) and entry.index < before]
+        bound = [
+            event.index for event in reversed(grown) if event.kind in ("bind", "place") and event.label is not None
+        ]
+        lost = [(place, self.position(place)) for place in dict.fromkeys(bound)]
+        self.changes.undo(mark)
+        for place, position in lost:
+            if position is not None:
+                self._log(step, "unbind", place, position)
+        self._log(step, "retract", before - len(self.places))
 
     def mark_visited(self, place: int) -> None:
         """Note that the agent was in `place`."""
-        if not self._visited.values[place]:
-            self._visited.values[place] = True
-            self._first_visit.values[place] = self._visits.append(place)
+        self.visits.note(place)
 
-    def restore_columns(self, columns: Mapping[str, NDArray[np.generic]]) -> None:
+    def note_door(self, place: int, action: int, sensed: int, *, walked: bool = False) -> None:
+        """Note what was last sensed of a door, and whether it was walked through now."""
+        self._sensed.set((place, action), sensed)
+        if walked:
+            self._walked.set((place, action), True)
+
+    def restore_columns(self, columns: Mapping[str, NDArray[Any]]) -> None:
         """Take over the values of `columns`, by name."""
         for name, column in self.columns.items():
-            column.restore(columns[name])
-        visits = self.visited_places
-        first = np.full(len(self._visited), -1, dtype=np.int64)
-        first[visits] = np.arange(len(visits))
-        self._first_visit.restore(first)
+            if column not in (self.visits.visited, self.visits.order):
+                column.restore(columns[name])
+        self.visits.restore(columns["visits"], len(columns["visited"]))
 
     def grow_time(self, *, step: int) -> None:
         """Log that the variables and factors of a time step were added."""
@@ -385,7 +412,9 @@ class CognitiveMap:
         source: int | None = None,
         action: int | None = None,
     ) -> None:
-        self.growth.append(GrowthEvent(step, kind, index, label, source, action))
+        event = GrowthEvent(step, kind, index, label, source, action)
+        self.growth.append(event)
+        self.changes.append(event)
 
     def _check(self, place: int) -> None:
         if not 0 <= place < len(self.places):

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, cast
 
 from .cognitive_map import CognitiveMap
 from .errors import CogmapError
-from .growth_log import GrowthEvent
+from .graph import LabelledTable
+from .growth_event import GrowthEvent
 from .labels import shown
 from .motions import Position
-from .tables import LabelledTable
 
 if TYPE_CHECKING:
     from networkx import DiGraph

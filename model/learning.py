@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .cognitive_map import BLOCKED, OPEN, UNKNOWN, CognitiveMap
-from .errors import CogmapError
-from .lesson import Lesson
-from .retraction import Chapter, retract, sizes
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,55 +36,26 @@ TEXT_RATES = Rates(possible=(10.0, 7.0), impossible=(-10.0, -7.0), ceiling=10.0)
 
 
 class Learner:
-    """Teaches a map; it can take back the last `memory` steps.
+    """Teaches a map.
 
     Attributes:
         map: the map.
         rates: counts a piece of evidence.
-        chapters: the last steps, each with what it changed.
     """
 
-    __slots__ = ("_lessons", "chapters", "map", "rates")
+    __slots__ = ("map", "rates")
 
-    def __init__(self, map_: CognitiveMap, rates: Rates, *, memory: int = 1) -> None:
+    def __init__(self, map_: CognitiveMap, rates: Rates) -> None:
         self.map = map_
         self.rates = rates
-        self.chapters: deque[Chapter] = deque([Chapter(0, *sizes(map_))], maxlen=memory)
-        self._lessons: list[Lesson] = []
-
-    def begin(self, step: int) -> None:
-        """Open the chapter of a time step."""
-        self.chapters.append(Chapter(step, *sizes(self.map)))
-
-    def take_back(self, since: int, *, step: int) -> None:
-        """Take back everything from time step `since` on; the present step begins anew.
-
-        Raises:
-            CogmapError: that is longer ago than it remembers.
-        """
-        wrong = [chapter for chapter in self.chapters if chapter.step >= since]
-        if not wrong or wrong[0].step != since:
-            raise CogmapError(f"learning: step {since} is not remembered; those since {self.chapters[0].step} are")
-        self._lessons += retract(self.map, wrong, step=step)
-        for _ in wrong:
-            self.chapters.pop()
-        self.begin(step)
-
-    def take_lessons(self) -> tuple[Lesson, ...]:
-        """What changed since the last call."""
-        taken = tuple(self._lessons)
-        self._lessons.clear()
-        return taken
 
     def sight(self, place: int, sight: int, weight: float) -> None:
         """`A_o[sight, place]` gains `weight` times the rate."""
-        added = self.map.A_o.add(place, sight, weight * self.rates.likelihood)
-        self._note("A_o", sight, place, None, added)
+        self.map.A_o.add(place, sight, weight * self.rates.likelihood)
 
     def position(self, place: int, position: int, weight: float) -> None:
         """`A_p[position, place]` gains `weight` times the rate."""
-        added = self.map.A_p.add(place, position, weight * self.rates.likelihood)
-        self._note("A_p", position, place, None, added)
+        self.map.A_p.add(place, position, weight * self.rates.likelihood)
 
     def transition(self, previous: int, action: int, next_: int, weight: float) -> None:
         """A walked transition, weighted by its pairwise posterior; one that went nowhere was blocked (eq. B_up)."""
@@ -137,8 +104,7 @@ class Learner:
 
     def forget(self, keep: float) -> None:
         """Let all evidence for transitions fade by the factor `keep`."""
-        self.chapters[-1].kept *= keep
-        self.map.B_s.fade(slice(len(self.map.B_s)), keep)
+        self.map.B_s.fade(keep)
 
     def _open(self, place: int, action: int, weight: float, before: int) -> None:
         beyond, inverse = self.map.beyond(place, action), self.map.motions.inverse[action]
@@ -175,18 +141,7 @@ class Learner:
         )
 
     def _add(self, next_: int, previous: int, action: int, amount: float) -> None:
-        added = self.map.B_s.add(self.map.row(previous, action), next_, amount, most=self.rates.ceiling)
-        self._note("B_s", next_, previous, action, added)
+        self.map.B_s.add(self.map.row(previous, action), next_, amount, most=self.rates.ceiling)
 
     def _note_door(self, place: int, action: int, sensed: int, *, walked: bool = False) -> None:
-        before = int(self.map.sensed[place, action]), bool(self.map.walked[place, action])
-        if before == (sensed, walked or before[1]):
-            return
-        self.chapters[-1].doors.append((place, action, *before))
-        self.map.sensed[place, action], self.map.walked[place, action] = sensed, walked or before[1]
-
-    def _note(self, table: str, outcome: int, place: int, action: int | None, amount: float) -> None:
-        if amount != 0.0:
-            lesson = Lesson(table, outcome, place, action, amount)
-            self._lessons.append(lesson)
-            self.chapters[-1].lessons.append(lesson)
+        self.map.note_door(place, action, sensed, walked=walked)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .export import quoted
+from .graph import quoted
 from .labels import encode, plain, shown
 
 if TYPE_CHECKING:

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .change_rows import change_arrays, restore_changes
 from .cognitive_map import CognitiveMap
 from .dirichlet import EMPTY
 from .errors import CogmapError
-from .growth_log import KINDS, GrowthEvent
+from .growth_event import KINDS, GrowthEvent
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -25,7 +26,7 @@ def map_arrays(map_: CognitiveMap) -> Arrays:
     for name, column in map_.columns.items():
         arrays[f"map.{name}"] = column.values.copy()
     arrays["growth"] = _rows(map_)
-    return arrays
+    return arrays | change_arrays(map_.changes, map_.stores, map_.growth)
 
 
 def restore_map(
@@ -48,6 +49,7 @@ def restore_map(
         getattr(map_, name).restore({part: arrays[f"{name}.{part}"] for part in ("keys", "prior", "evidence")})
     map_.restore_columns({name: arrays[f"map.{name}"] for name in map_.columns})
     map_.growth.extend(_events(map_, arrays["growth"]))
+    restore_changes(map_.changes, arrays, map_.stores, map_.growth)
 
 
 def _check_counts(arrays: Mapping[str, NDArray[Any]], sights: int, positions: int, actions: int) -> None:

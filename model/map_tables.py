@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from .cognitive_map import ELSEWHERE, CognitiveMap
 from .dirichlet import SparseDirichlet
 from .errors import CogmapError
+from .graph import LabelledTable
 from .labels import plain
-from .tables import LabelledTable
 
 OTHER = {"A_o": "(any other sight)", "A_p": "(no position)", "B_s": "(elsewhere)"}
 """Label of the last row: what has no row of its own."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .cognitive_map import CognitiveMap
 from .distinct import distinct
-from .factor_graph import FactorGraph
+from .graph import FactorGraph
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -8,11 +8,8 @@ import math
 import numpy as np
 import pytest
 from cogmap.inference import infer
-from cogmap.model.conditional import ConditionalTable, LearnableTable
+from cogmap.model import ConditionalTable, Factor, FactorGraph, LearnableTable, SparseValues, Variable, sparse_values
 from cogmap.model.errors import CogmapError
-from cogmap.model.factor_graph import FactorGraph
-from cogmap.model.factors import Factor, SparseValues, sparse_values
-from cogmap.model.variables import Variable
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays

@@ -7,9 +7,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.model import CogmapError, CognitiveMap, ConditionalTable, FactorGraph, Motions
+from cogmap.model import (
+    CogmapError,
+    CognitiveMap,
+    ConditionalTable,
+    FactorGraph,
+    LabelledTable,
+    Motions,
+    labelled,
+    table,
+)
 from cogmap.model.map_tables import counts_of, map_table
-from cogmap.model.tables import LabelledTable, labelled, table
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -251,7 +251,7 @@ def test_damaged_arrays_are_refused(damage: str) -> None:
         map_.mark_visited(place)
     arrays = map_arrays(map_)
     for name in arrays:
-        if name != "growth":
+        if name != "growth" and not name.startswith("changes"):  # the log is empty here
             with np.errstate(invalid="ignore"):
                 damaged = {**arrays, name: DAMAGE[damage](arrays[name])}
             with pytest.raises(CogmapError, match=r"does not fit|do not fit"):

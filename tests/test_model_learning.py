@@ -16,7 +16,9 @@ from cogmap.model import (
     CognitiveMap,
     Learner,
     Motions,
+    ParameterUpdate,
     Rates,
+    updates,
 )
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -231,19 +233,19 @@ def test_forgetting_fades_transitions_only() -> None:
     assert_map_is_sound(map_)
 
 
-def test_lessons_are_taken_once() -> None:
+def test_updates_are_read_from_the_log() -> None:
     map_, learner = pair()
+    cursor = len(map_.changes)
     learner.sight(A, map_.new_sight("x", step=0), 1.0)
     learner.transition(A, RIGHT, B, 1.0)
-    lessons = learner.take_lessons()
-    assert [(lesson.table, lesson.outcome, lesson.place, lesson.action, lesson.amount) for lesson in lessons] == [
-        ("A_o", 0, A, None, 1.0),
-        ("B_s", B, A, RIGHT, 7.0),
-        ("B_s", A, B, LEFT, 5.0),
+    entries, cursor = map_.changes.since(cursor)
+    assert updates(entries or ()) == [
+        ParameterUpdate("A_o", 0, A, None, 1.0),
+        ParameterUpdate("B_s", B, A, RIGHT, 7.0),
+        ParameterUpdate("B_s", A, B, LEFT, 5.0),
     ]
-    assert learner.take_lessons() == ()
     learner.transition(A, RIGHT, B, 0.0)
-    assert learner.take_lessons() == ()
+    assert updates(map_.changes.since(cursor)[0] or ()) == []
 
 
 doors = st.tuples(*[st.booleans()] * 4, st.just(True))
@@ -266,7 +268,7 @@ def test_any_lessons_keep_counts_above_the_prior_and_add_up(lessons: list[tuple[
         map_.new_place(position, step=0)
     for sight in "ab":
         map_.new_sight(sight, step=0)
-    learner = Learner(map_, rates)
+    learner, cursor = Learner(map_, rates), len(map_.changes)
     for kind, at, what, weight in lessons:
         if kind == "doors":
             learner.doors(at, what, weight)
@@ -279,7 +281,7 @@ def test_any_lessons_keep_counts_above_the_prior_and_add_up(lessons: list[tuple[
             learner.transition(at, what, at if beyond is None else beyond, weight)
     assert_map_is_sound(map_)
     total: dict[tuple[str, int, int], float] = {}
-    for taught in learner.take_lessons():
+    for taught in updates(map_.changes.since(cursor)[0] or ()):
         row = taught.place if taught.action is None else map_.row(taught.place, taught.action)
         key = (taught.table, row, taught.outcome)
         total[key] = total.get(key, 0.0) + taught.amount

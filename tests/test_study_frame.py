@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Settings
-from cogmap.experiments.session import Session, explored
+from cogmap.experiments import Session, explored
 from cogmap.experiments.studies.frame import STUDIES, Study, study_named
 from cogmap.experiments.studies.imagined import imagined_paths, room_of
 from cogmap.experiments.studies.saving import check_folder, save_study, study_report
@@ -108,7 +108,7 @@ def test_a_folder_that_appears_as_a_file_meanwhile(stub: Study, tmp_path: Path) 
 
 @pytest.fixture(scope="module")
 def session() -> Session:
-    session = explored("test", MAZES["3x3"], settings=Settings(look_ahead=4), seed=1, most=100)
+    session = explored("test", MAZES["3x3"], 1, settings=Settings(look_ahead=4), max_steps=100)
     session.agent.prefer({8: 3.0})
     session.agent.step(session.world.observe())
     return session
@@ -140,9 +140,9 @@ def test_imagined_paths_are_those_of_the_world(session: Session) -> None:
 def test_a_divided_belief_has_paths_from_every_place(session: Session) -> None:
     plan = session.agent.plan
     inside = np.flatnonzero(plan.places >= 0)[:2]
-    belief = np.zeros_like(plan.reach.belief)
+    belief = np.zeros_like(plan.model.belief)
     belief[inside] = 0.25, 0.75
-    divided = replace(plan, reach=replace(plan.reach, belief=belief))
+    divided = replace(plan, model=replace(plan.model, belief=belief))
     mass = {}
     for path in imagined_paths(divided, session.agent.map, session.start):
         mass[path.rooms[0]] = mass.get(path.rooms[0], 0.0) + path.probability

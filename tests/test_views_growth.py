@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from cogmap.agent import Agent
 from cogmap.model import CogmapError
-from cogmap.model.growth_log import GrowthEvent
+from cogmap.model.growth_event import GrowthEvent
 from cogmap.views import GrowthFrames
 from cogmap.views.growth_news import news_of
 from cogmap.worlds import GRID, MAZES

@@ -9,7 +9,7 @@ import numpy as np
 from cogmap.agent import Agent, Settings
 from cogmap.model import CognitiveMap
 from cogmap.model.map_state import map_arrays
-from cogmap.planning.outlook import Doors, Outlook
+from cogmap.planning import LocalCache
 from cogmap.worlds import MazeEnv
 
 GRID = {"up": (-1, 0), "down": (1, 0), "left": (0, -1), "right": (0, 1), "stay": (0, 0)}
@@ -67,18 +67,18 @@ def assert_map_is_sound(map_: CognitiveMap) -> None:
     assert set(map_.visited_places.tolist()) == set(np.flatnonzero(map_.visited).tolist())
 
 
-def assert_outlook_is_fresh(agent: Agent) -> None:
+def assert_cache_is_fresh(agent: Agent) -> None:
     """What plans have kept of each place is what a plan that has kept nothing would work out."""
-    places, (kept, fresh) = np.arange(len(agent.map.places)), (agent._outlook, Outlook(agent.map, agent._outlook.steps))
-    for outlook in (kept, fresh):
-        outlook.refresh()
-    (doors, of_doors), (new_doors, new_of_doors) = kept.doors(places), fresh.doors(places)
-    for name in Doors.__slots__:
-        np.testing.assert_array_equal(getattr(doors, name), getattr(new_doors, name), err_msg=name)
-    np.testing.assert_array_equal(of_doors, new_of_doors)
-    for old, new in zip(kept.sights(places), fresh.sights(places), strict=True):
-        np.testing.assert_array_equal(old, new)
-    np.testing.assert_array_equal(kept.ways(places), new_doors.likely)
+    places, (kept, fresh) = np.arange(len(agent.map.places)), (agent._cache, LocalCache(agent.map, agent._cache.visits))
+    for cache in (kept, fresh):
+        cache.refresh()
+    for name in ("successors", "probability", "likely", "blocked"):
+        old, new = getattr(kept.ways(places), name), getattr(fresh.ways(places), name)
+        np.testing.assert_array_equal(old, new, err_msg=name)
+    for name, table in kept.information(places).items():
+        np.testing.assert_array_equal(table, fresh.information(places)[name], err_msg=name)
+    np.testing.assert_array_equal(kept.positions(places), fresh.positions(places))
+    np.testing.assert_array_equal(kept.likely(places), fresh.ways(places).likely)
 
 
 def assert_agent_is_sound(agent: Agent) -> None:
@@ -92,7 +92,7 @@ def assert_agent_is_sound(agent: Agent) -> None:
     assert -1e-9 <= belief.moved <= 1.0 + 1e-9
     assert -1e-9 <= belief.dropped <= 1.0
     assert (belief.walks[2] >= 0.0).all()
-    assert_outlook_is_fresh(agent)
+    assert_cache_is_fresh(agent)
     assert belief.walks[2].sum() <= 1.0 + 1e-9
     numbers = [belief.evidence, belief.complexity, belief.accuracy, *agent.trace[-1].G.values()]
     assert np.isfinite(numbers).all()

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model.factor_graph import FactorGraph
-from ..model.factors import Factor
-from ..model.variables import Variable
+from ..model import Factor, FactorGraph, Variable
 
 Point = tuple[float, float]
 

@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..model import Factor, FactorGraph, Variable
 from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
-from ..model.factors import Factor
-from ..model.variables import Variable
 from .axes import axes_or_new, write_in
 from .colours import SKY, ink_on, mixed
 from .graph_layout import GraphLayout, Point, layout_of

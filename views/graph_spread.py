@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.factors import Factor
-from ..model.variables import Variable
+from ..model import Factor, Variable
 from .graph_layout import GraphLayout
 
 if TYPE_CHECKING:

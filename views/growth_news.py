@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..model.growth_log import GrowthEvent
+from ..model.growth_event import GrowthEvent
 from .map_picture import MapPicture
 
 _WORDS = {"place": "imagined", "sight": "new sight", "bind": "bound", "unbind": "unbound", "retract": "taken back"}

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model import FactorGraph
 from ..model.cognitive_map import CognitiveMap
-from ..model.factor_graph import FactorGraph
 from ..model.labels import encode
 from ..model.slices import Slice, window_graph
 

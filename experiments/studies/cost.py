@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from functools import partial
 from statistics import median
 from time import perf_counter
-from typing import Any
 
 from ...agent import Settings
 from ...views import theme_of
 from ...worlds import MAZES, MazeEnv
 from .. import CSCG, Parts, draw_start, run
-from .figures import Figure, errors, panels
+from .figures import Figure, Look, errors, panels
 from .grid import LOOKS
 from .intervals import Interval
 from .study import Findings, Study
@@ -124,7 +123,7 @@ def _figure(title: str, times: dict[str, Interval]) -> Figure:
     at, medians, theme = range(len(times)), [time.value for time in times.values()], theme_of(ax)
     ax.barh(at, medians, 0.6, color=[LOOKS[agent][1] for agent in times])
     ax.errorbar(medians, at, xerr=errors([*times.values()]), fmt="none", ecolor=theme.ink, elinewidth=1.2, capsize=3)
-    look: dict[str, Any] = {"color": theme.ink, "markerfacecolor": theme.paper}
+    look: Look = {"color": theme.ink, "markerfacecolor": theme.paper}
     for figures, marker, name in ((PAPER, "x", "the paper"), (AUTHORS, "D", "the authors' code")):
         ax.plot([*figures.values()], [[*times].index(agent) for agent in figures], marker, label=name, **look)
     ax.set(xscale="log", xlim=(min(medians) / 3, max(*medians, *PAPER.values()) * 2))

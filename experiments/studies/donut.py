@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from ...agent import Agent, Settings
+from ...agent import Settings
 from ...views import BLUE, VERMILION
 from ...worlds import MAZES, Label, Position, shortest_path
-from .. import Moment, Session, default_steps, explored, mean, number
-from .figures import Axes, Figure, ImaginedPath, draw_room, imagined_paths, panels, plot_ways
+from .. import Moment, Session, explored, mean, number
+from .figures import Axes, Figure, ImaginedPath, Look, draw_room, imagined_paths, panels, plot_ways
 from .study import Findings, Study, failed_seeds
 
 MAZE = MAZES["donut"]
@@ -82,7 +82,7 @@ class Donut(Study[int, DonutRow]):
 
     def run(self, task: int, settings: Settings) -> DonutRow:
         """Let it explore, move it to the corner without a word, and watch it."""
-        session = explored("donut", MAZE, settings=settings, seed=task, most=default_steps(MAZE))
+        session = explored("donut", MAZE, task, settings=settings)
         steps: list[DonutStep] = []
 
         def note(moment: Moment) -> bool:
@@ -108,7 +108,7 @@ class Donut(Study[int, DonutRow]):
         return Findings(json, _lines(summary), figures, failed=failed)
 
 
-def _step(session: Session[Agent]) -> DonutStep:
+def _step(session: Session) -> DonutStep:
     map_, plan = session.agent.map, session.agent.plan
     names = map_.motions.names
     doors = {name: (session.truth.place(map_, at), names.index(action)) for name, (at, action) in DOORS.items()}
@@ -167,7 +167,8 @@ def _frames(row: DonutRow) -> Figure:
 
 def _draw_way_open(ax: Axes, row: DonutRow) -> None:
     frames = range(1, len(row.steps) + 1)
-    for name, look in zip(DOORS, ({"color": BLUE, "marker": "o"}, {"color": VERMILION, "marker": "s"}), strict=True):
+    looks: list[Look] = [{"color": BLUE, "marker": "o"}, {"color": VERMILION, "marker": "s", "linestyle": "--"}]
+    for name, look in zip(DOORS, looks, strict=True):
         ax.plot(frames, [step.way_open[name] for step in row.steps], label=name, markersize=5, **look)
     ax.set_ylim(-0.05, 1.05)
     ax.set_xlabel("frame")

@@ -169,7 +169,7 @@ def _lines(grid: Grid, factors: Sequence[dict[str, Any]]) -> list[str]:
     return lines
 
 
-def _published(*key: str) -> dict[str, float | None]:
-    paper, authors = ((*figures.get(key, ()), *[None] * 4) for figures in (PAPER, AUTHORS))
+def _published(world: str, agent: str) -> dict[str, float | None]:
+    paper, authors = ((*figures.get((world, agent), ()), *[None] * 4) for figures in (PAPER, AUTHORS))
     names = ("authors_mean", "authors_std", "authors_learned", "authors_runs")
     return {"paper_mean": paper[0], "paper_std": paper[1], **dict(zip(names, authors, strict=False))}

@@ -24,6 +24,7 @@ LEAST = 1e-3  # imagined paths that are less probable are left out
 WIDEST = 13.0  # points of the door that was walked through most
 
 Sure = Interval | Share
+Look = dict[str, Any]  # of what is drawn, as matplotlib takes it
 
 
 def panels(title: str, shape: tuple[int, int], size: tuple[float, float], **options: Any) -> tuple[Figure, list[Axes]]:
@@ -61,7 +62,8 @@ def errors(values: Sequence[Sure]) -> tuple[list[float], list[float]]:
 
 def plot_line(ax: Axes, at: Sequence[float], values: Sequence[Sure], **style: Any) -> None:
     """A line through values with their intervals; `style` is that of `Axes.errorbar`."""
-    ax.errorbar(at, [value.value for value in values], errors(values), **{"capsize": 2, **style})
+    look: Look = {"capsize": 2, **style}
+    ax.errorbar(at, [value.value for value in values], errors(values), **look)
 
 
 def plot_bars(
@@ -114,7 +116,7 @@ def plot_ways(
         plot_policies({path.rooms: path.probability for path in imagined}, ax=ax)
     for colour, width in ((theme.shade(0.65), 3.6), (theme.paper, 1.8)):
         ax.plot(columns, rows, color=colour, linewidth=width, zorder=3)
-    look: dict[str, Any] = {"color": VERMILION, "edgecolors": theme.paper, "linewidths": 1.3}
+    look: Look = {"color": VERMILION, "edgecolors": theme.paper, "linewidths": 1.3}
     ax.scatter(columns[-1:], rows[-1:], marker="X", s=150, zorder=6, **look)
 
 
@@ -127,7 +129,7 @@ def plot_flow(ax: Axes, maze: Maze, paths: Sequence[Sequence[Position]], *, clos
         draw_room(ax, room, 1.0, facecolor=theme.paper, alpha=0.5, zorder=1.5)
     for (at, to), count in sorted(counts.items(), key=lambda item: item[1]):
         share = count / max(counts.values())
-        look: dict[str, Any] = {"color": theme.shade(0.38 + 0.62 * share), "linewidth": 0.8 + WIDEST * share}
+        look: Look = {"color": theme.shade(0.38 + 0.62 * share), "linewidth": 0.8 + WIDEST * share}
         ax.plot([at[1], to[1]], [at[0], to[0]], zorder=2.1 + share, solid_capstyle="round", **look)
 
 

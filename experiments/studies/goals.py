@@ -13,7 +13,7 @@ from ...agent import Settings
 from ...views import BLUE, GREEN, GREY, ORANGE, VERMILION, theme_of
 from ...worlds import MAZES, Label, Maze
 from .. import WEIGHT, NavigateRun, navigate
-from .figures import Axes, Figure, panels, plot_bars
+from .figures import Axes, Figure, Look, panels, plot_bars
 from .intervals import Interval, bootstrap
 from .study import Findings, Study
 
@@ -174,10 +174,10 @@ def _draw_marks(
     for what in marks:
         marker, name, size, colour = MARKS[what]
         values = [value.value if (value := group[what]) else np.nan for group in groups]
-        look: dict[str, Any] = {"marker": marker, "markersize": size, "markerfacecolor": colour, "linestyle": "none"}
+        look: Look = {"marker": marker, "markersize": size, "markerfacecolor": colour, "linestyle": "none"}
         look |= {"markeredgecolor": theme_of(ax).ink, "markeredgewidth": size / 7.0, "label": name if named else None}
         ax.plot([i + shift for i in range(len(groups))], values, zorder=4, **look)
-    text: dict[str, Any] = {"textcoords": "offset points", "color": VERMILION, "fontsize": 7, "rotation": 90}
+    text: Look = {"textcoords": "offset points", "color": VERMILION, "fontsize": 7, "rotation": 90}
     for i, group in enumerate(groups):
         if group["failed"]:
             top = group["steps"].high if group["steps"] else 0.0

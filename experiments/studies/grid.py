@@ -18,7 +18,7 @@ from ...model import make_folder
 from ...views import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, theme_of
 from ...worlds import MAZES
 from .. import CSCG, Cell, ExploreRun, Ledger, Row, mean, run_cell, run_cells, std
-from .figures import Axes, Figure, panels, plot_line
+from .figures import Axes, Figure, Look, panels, plot_line
 from .intervals import Interval, bootstrap
 from .study import Study
 from .tables import Table, flat
@@ -233,16 +233,16 @@ def steps_figure(
 
 def _point(ax: Axes, x: float, steps: Steps, column: str, *, named: bool) -> None:
     name, colour, marker = LOOKS[column]
-    look: dict[str, Any] = {"color": colour, "marker": marker, "linestyle": "none", "zorder": 3}
+    look: Look = {"color": colour, "marker": marker, "linestyle": "none", "zorder": 3}
     look |= {"markerfacecolor": theme_of(ax).paper if steps.censored else colour, "label": name if named else "_"}
     value, low, high = (max(end, LEAST) for end in (steps.bound, steps.low, steps.high))
-    size = {"markersize": 12.0, "markeredgewidth": 2.0} if column == "oracle" else {"markersize": 6.5}
-    ax.plot([x], [value], **look, **size)
+    look |= {"markersize": 12.0, "markeredgewidth": 2.0} if column == "oracle" else {"markersize": 6.5}
+    ax.plot([x], [value], **look)
     if column != "oracle":
         plot_line(ax, [x], [Interval(value, low, high, steps.runs)], fmt="none", color=colour, elinewidth=1.4)
     if steps.censored:  # an arrow upwards, and how many got there of how many
         arrow = {"arrowstyle": "<-", "color": colour, "linewidth": 1.4, "shrinkA": 2, "shrinkB": 0}
-        up: dict[str, Any] = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
+        up: Look = {"textcoords": "offset points", "ha": "center", "va": "bottom"}
         ax.annotate("", (x, high), (0, 20), textcoords="offset points", arrowprops=arrow)
         ax.annotate(f"{steps.got_there}/{steps.runs}", (x, high), (0, 23), fontsize=7, rotation=90, **up)
 

@@ -174,9 +174,9 @@ def _after(row: InsightRow) -> list[Sequence[Position]]:
     """The paths from the first sight of the block on, up to the run in which something was chosen."""
     paths: list[Sequence[Position]] = []
     steps = 0
-    for run in row.probe if row.choice is not None else ():
+    for run in row.probe:
         since = run.met_at if not paths else 0
-        if since is not None and (not paths or steps < row.choice.steps):
+        if row.choice is not None and since is not None and (not paths or steps < row.choice.steps):
             paths.append(run.path[since:])
             steps += len(paths[-1])
     return paths

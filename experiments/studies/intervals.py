@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,10 +57,15 @@ def bootstrap(values: Sequence[float], over: Sequence[float] | None = None) -> I
     value = float(sum(values) / sum(over))
     if len(values) == 1:  # scipy wants two
         return Interval(value, value, value, 1)
-    how = {"paired": True, "n_resamples": RESAMPLES, "method": "percentile", "rng": np.random.default_rng(0)}
+    how: dict[str, Any] = {
+        "paired": True,
+        "n_resamples": RESAMPLES,
+        "method": "percentile",
+        "rng": np.random.default_rng(0),
+    }
     with warnings.catch_warnings():  # of resamples that are left out
         warnings.simplefilter("ignore", stats.DegenerateDataWarning)
-        drawn = stats.bootstrap((values, over), _ratio, vectorized=True, **how).bootstrap_distribution
+        drawn = stats.bootstrap((values, over), _ratio, rng=np.random.default_rng(0), **how).bootstrap_distribution
     low, high = np.nanquantile(drawn, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
     return Interval(value, float(low), float(high), len(values))
 

@@ -12,8 +12,8 @@ import numpy as np
 from ...agent import Agent, Settings
 from ...views import BLUE, GREEN, SKY, VERMILION, plot_belief
 from ...worlds import MAZES, Label, MazeEnv, Position, shortest_path
-from .. import Moment, Session, default_steps, explored, mean, number, run, spread, std
-from .figures import Figure, ImaginedPath, imagined_paths, legend_below, panels, plot_line, plot_ways
+from .. import Moment, Session, explored, mean, number, run, spread, std
+from .figures import Figure, ImaginedPath, Look, imagined_paths, legend_below, panels, plot_line, plot_ways
 from .intervals import Interval, bootstrap
 from .study import Findings, Study, failed_seeds
 
@@ -27,7 +27,7 @@ SHOWN = ("silent_doors", "told_sights")  # conditions of which the first agent i
 MOST_ROWS = 8
 
 
-CONDITIONS: dict[str, dict[str, Any]] = {
+CONDITIONS: dict[str, Look] = {
     "silent_doors": {"color": BLUE, "marker": "o"},
     "silent_sights": {"color": SKY, "linestyle": "--", "marker": "s"},
     "told_doors": {"color": GREEN, "linestyle": ":", "marker": "^"},
@@ -37,8 +37,10 @@ CONDITIONS: dict[str, dict[str, Any]] = {
 observation after; if not, it has its prior alone. Doors: those it senses are evidence of where it is (they always show
 which ways are open). Told by sights alone is the paper's: its model has no likelihood of doors."""
 TEXTS = {
-    name: f"{'told' if name.startswith('told') else 'not told'}, sights {'alone' if name.endswith('sights') else 'and doors'}"
-    for name in CONDITIONS
+    "silent_doors": "not told, sights and doors",
+    "silent_sights": "not told, sights alone",
+    "told_doors": "told, sights and doors",
+    "told_sights": "told, sights alone",
 }
 
 
@@ -108,7 +110,7 @@ class Localisation(Study[int, LocalisationRow]):
 
     def run(self, task: int, settings: Settings) -> LocalisationRow:
         """Let it explore, and put a copy of it at the foot of the T under each condition."""
-        session = explored("localisation", MAZE, settings=settings, seed=task, most=default_steps(MAZE))
+        session = explored("localisation", MAZE, task, settings=settings)
         trials = () if session.steps is None else tuple(_trial(session, condition) for condition in CONDITIONS)
         return LocalisationRow(task, session.start, session.steps, session.place, trials)
 
@@ -124,19 +126,18 @@ class Localisation(Study[int, LocalisationRow]):
             "conditions": conditions,
         }
         protocol = {"moved_to": FOOT, "goal": GOAL, "weight": WEIGHT, "candidate": CANDIDATE, "max_moves": MOST}
-        protocol["conditions"] = TEXTS
+        json = {"world": MAZE.name, "protocol": {**protocol, "conditions": TEXTS}, "rows": rows, "summary": summary}
         ways = {f"localisation_{name}": partial(_way, trials[name][0]) for name in SHOWN if trials[name]}
         failed = failed_seeds("did not explore the maze", rows, lambda row: row.steps_to_explore is None)
         for name, part in conditions.items():
             for what in ("localised", "reached", "map_intact"):
                 if part[what] < part["trials"]:
                     failed.append(f"{name}: {what.replace('_', ' ')} {part[what]} of {part['trials']}")
-        json = {"world": MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
         figures = {**ways, "localisation_by_step": partial(_by_step, trials)} if ways else {}
         return Findings(json, _lines(summary), figures, failed=failed)
 
 
-def _trial(session: Session[Agent], condition: str) -> Trial:
+def _trial(session: Session, condition: str) -> Trial:
     own, told = session.agent.settings, condition.startswith("told")
     floor = own.priors.door_floor if condition.endswith("doors") else 0.5  # every door as likely open as blocked
     world, agent = MazeEnv(MAZE), _with(session.agent, floor, 1.0 if told else own.filter.displacement)
@@ -175,7 +176,7 @@ def _with(agent: Agent, door_floor: float, displacement: float) -> Agent:
     return Agent.from_state(header, arrays)
 
 
-def _step(moment: Moment, session: Session[Agent]) -> LocalisationStep:
+def _step(moment: Moment, session: Session) -> LocalisationStep:
     agent: Any = moment.agent
     belief, map_, room = agent.belief, agent.map, moment.info["position"]
     q = np.array(list(belief.places.values()))
@@ -252,7 +253,7 @@ def _way(trial: Trial) -> Figure:
     names = {room: f"{sight}\n{room[0]}, {room[1]}" for room, sight in MAZE.sights.items()}
     figure = Figure(figsize=(11.0, 2.35 * len(steps) + 0.9), layout="constrained")
     figure.suptitle(f"The first agent, moved to the foot of the T: {TEXTS[trial.condition]}", fontsize=13)
-    halves = figure.subfigures(1, 2, width_ratios=(1.6, 1.0))  # so that the mazes are not cut to the bars
+    halves: Any = figure.subfigures(1, 2, width_ratios=(1.6, 1.0))  # so that the mazes are not cut to the bars
     axes = [half.subplots(len(steps), 1, squeeze=False).ravel() for half in halves]
     for count, (step, bars, maze) in enumerate(zip(steps, *axes, strict=True)):
         belief = {names[held.room]: held.probability for held in step.posterior}

@@ -120,8 +120,8 @@ class Martinet(Study[int, MartinetRow]):
             "runs_with_B_closed": PROBES,
             "most_steps_a_run": MOST,
         }
-        summary = {"agents": len(rows), "runs": len(runs), "reached": reached, "shares": shares}
-        summary["preferences"] = preferences
+        counted = {"agents": len(rows), "runs": len(runs), "reached": reached}
+        summary = {**counted, "shares": shares, "preferences": preferences}
         json = {"world": maze.MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
         whole = f"{len(rows)} agents, {self.days} days of training; the goal reached in {reached}/{len(runs)} runs"
         figures = {"martinet_routes": partial(_figure, len(rows), self.days, shares, preferences)}

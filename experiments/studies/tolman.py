@@ -12,7 +12,7 @@ from ...agent import Settings
 from ...views import GREY, SKY, theme_of
 from ...worlds import Position
 from . import tolman_maze as maze
-from .figures import Axes, Figure, legend_below, panels, plot_bars, plot_line, shares_axis
+from .figures import Axes, Figure, Look, legend_below, panels, plot_bars, plot_line, shares_axis
 from .intervals import Share, total_variation, wilson
 from .study import Findings, Study
 from .tolman_maze import COLOURS, ROUTES, TolmanRun
@@ -263,7 +263,7 @@ def _draw_knob(ax: Axes, knob: Sequence[dict[str, Any]], block: str) -> None:
             continue
         values = [wilson(part.compared(block)[index], part.runs) for part in counts]
         at, name = [place + 0.06 * (index - 1.5) for place in range(len(knob))], f"route {index + 1}"
-        look: dict[str, Any] = {"color": colour, "marker": marker}
+        look: Look = {"color": colour, "marker": marker}
         plot_line(ax, at, values, label=name if index < 3 else "none of these", linestyle=line, elinewidth=0.8, **look)
         ax.plot(end, PAPER[block][index] / PAPER_RUNS, markersize=10, clip_on=False, **look)
     goal = [part.goal_reached.share for part in counts]

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...agent import Agent, Settings
 from ...model import Priors
 from ...views import BLUE, GREEN, ORANGE, theme_of
 from ...worlds import GRID, MAZES, Door, Label, MazeEnv, Position, shortest_path
 from .. import Moment, run
-from .figures import Axes, plot_flow
-
-if TYPE_CHECKING:
-    from .. import Watch
+from .figures import Axes, Look, plot_flow
 
 MAZE = MAZES["tolman"]
 START: Position = (6, 2)
@@ -146,7 +143,7 @@ def agent_run(agent: Agent, world: MazeEnv) -> TolmanRun:
 
 
 def walk(
-    walker: Any, world: MazeEnv, *, steps: int = STEPS, ends: bool = False, watch: Watch = lambda moment: None
+    walker: Any, world: MazeEnv, *, steps: int = STEPS, ends: bool = False, watch: Callable[[Moment], object] = bool
 ) -> tuple[Sequence[Position], int | None]:
     """The rooms of a run from the start, where the walker is put without a word, and the step at which it chose to stay
     at the goal, where the run `ends` or goes on.
@@ -168,7 +165,7 @@ def plot_tolman(ax: Axes, paths: Sequence[Sequence[Position]], *, closed: Positi
     from matplotlib.patheffects import withStroke
 
     plot_flow(ax, MAZE, paths, closed=closed)
-    look: dict[str, Any] = {"va": "center", "size": 12, "weight": "bold", "zorder": 6}
+    look: Look = {"va": "center", "size": 12, "weight": "bold", "zorder": 6}
     rim = [withStroke(linewidth=3, foreground=theme_of(ax).paper)]
     for (row, column), name, down in ((START, "start", 0.72), (GOAL, "goal", -0.72)):
         ax.text(column, row + down, name, ha="center", path_effects=rim, **look)
