@@ -152,8 +152,8 @@ def _lines(summary: dict[str, Any]) -> list[str]:
 def _frames(row: DonutRow) -> Figure:
     count = min(len(row.steps), FRAMES)
     shown, down = np.linspace(0, len(row.steps) - 1, count).round().astype(int), -(-(count + 1) // ACROSS)
-    title = "Path so far (white), paths imagined (darker: more probable), the closed room (hatched), goal (red square)"
-    figure, axes = panels(title, (down, ACROSS), (14.0, 3.1 * down + 0.9))
+    legend = "Path so far (white), paths imagined (darker: more probable), the closed room (hatched), "
+    figure, axes = panels(f"{legend}the goal (red square)", (down, ACROSS), (14.0, 3.1 * down + 0.9))
     for ax in axes[count:]:
         ax.set_axis_off()
     for ax, frame in zip(axes, shown.tolist(), strict=False):

@@ -57,12 +57,7 @@ def bootstrap(values: Sequence[float], over: Sequence[float] | None = None) -> I
     value = float(sum(values) / sum(over))
     if len(values) == 1:  # scipy wants two
         return Interval(value, value, value, 1)
-    how: dict[str, Any] = {
-        "paired": True,
-        "n_resamples": RESAMPLES,
-        "method": "percentile",
-        "rng": np.random.default_rng(0),
-    }
+    how: dict[str, Any] = {"paired": True, "vectorized": True, "n_resamples": RESAMPLES, "method": "percentile"}
     with warnings.catch_warnings():  # of resamples that are left out
         warnings.simplefilter("ignore", stats.DegenerateDataWarning)
         drawn = stats.bootstrap((values, over), _ratio, rng=np.random.default_rng(0), **how).bootstrap_distribution

@@ -21,6 +21,7 @@ INDEX = "index"
 
 Counter = Callable[[str, int], AbstractContextManager[Callable[[], None]]]
 """Takes what is done and its parts; the context has a function to call after each part."""
+SILENT: Counter = lambda what, parts: nullcontext(lambda: None)  # noqa: E731
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,7 @@ def run_study(
     *,
     executor: Executor | None = None,
     ledger: Path | None = None,
-    counter: Counter = lambda what, parts: nullcontext(lambda: None),
+    counter: Counter = SILENT,
 ) -> Outcome:
     """Run a study and write all that it leaves.
 
@@ -102,7 +103,12 @@ def run_study(
 
 
 def run_studies(
-    folder: Path, asked: Asked, *, executor: Executor | None, counter: Counter, on_outcome: Callable[[Outcome], None]
+    folder: Path,
+    asked: Asked,
+    *,
+    executor: Executor | None = None,
+    counter: Counter = SILENT,
+    on_outcome: Callable[[Outcome], None] = lambda outcome: None,
 ) -> tuple[list[Outcome], list[Path]]:
     """Run every study, each in a folder below this one, and write the page that leads to them.
 

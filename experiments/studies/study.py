@@ -50,7 +50,7 @@ class Study(ABC, Generic[Task, Row]):
     alone: ClassVar[bool] = False  # its tasks are done in this process, one after the other, whatever the executor
 
     def __post_init__(self) -> None:
-        at_least(self.name, 1, **{name: value for name, value in vars(self).items() if isinstance(value, int)})
+        at_least(self.name, 1, **{name: value for name, value in vars(self).items() if type(value) is int})
 
     @abstractmethod
     def run(self, task: Task, settings: Settings) -> Row:
@@ -118,16 +118,13 @@ AnyStudy = Study[Any, Any]
 
 @cache
 def studies() -> dict[str, AnyStudy]:
-    """The studies of this package by name: every class with a name in a file beside this one."""
-    for module in iter_modules([str(Path(__file__).parent)]):
-        import_module(f".{module.name}", __package__)
-    found = [kind() for kind in _kinds(Study) if "name" in vars(kind) and kind.__module__.startswith(f"{__package__}.")]
-    return {study.name: study for study in found}
-
-
-def _kinds(above: type[AnyStudy]) -> Iterator[type[AnyStudy]]:
-    for kind in above.__subclasses__():
-        yield from (kind, *_kinds(kind))
+    """The studies of this package by name, in order: every class with a name of its own in a file beside this one."""
+    found: dict[str, AnyStudy] = {}
+    for file in iter_modules([str(Path(__file__).parent)]):
+        for kind in vars(import_module(f".{file.name}", __package__)).values():
+            if isinstance(kind, type) and issubclass(kind, Study) and "name" in vars(kind):
+                found[kind.name] = kind()
+    return dict(sorted(found.items()))
 
 
 def study_named(name: str) -> AnyStudy:
