@@ -30,6 +30,19 @@ from .graph import (
     sparse_values,
     table,
 )
+from .graph.exchange import (
+    load_graph,
+    read_bif,
+    read_uai,
+    read_uai_evidence,
+    read_xmlbif,
+    save_graph,
+    write_bif,
+    write_graphml,
+    write_uai,
+    write_uai_evidence,
+    write_xmlbif,
+)
 from .growth import GROWTHS, Growth, growth_named
 from .growth_event import KINDS, GrowthEvent
 from .growth_table import GrownPlace, GrowthDifference, growth_between, growth_table
@@ -97,13 +110,19 @@ __all__ = [
     "html_table",
     "identity",
     "labelled",
+    "load_graph",
     "log_bounds",
     "make_folder",
     "map_graph",
     "map_table",
     "plain",
     "quoted",
+    "read_bif",
+    "read_uai",
+    "read_uai_evidence",
+    "read_xmlbif",
     "safe",
+    "save_graph",
     "shown",
     "sparse_values",
     "table",
@@ -111,6 +130,11 @@ __all__ = [
     "transitions",
     "updates",
     "window_graph",
+    "write_bif",
+    "write_graphml",
     "write_through",
+    "write_uai",
+    "write_uai_evidence",
     "write_whole",
+    "write_xmlbif",
 ]

@@ -40,9 +40,11 @@ class BucketTree:
     def joint(self, names: Sequence[str]) -> FloatArray:
         """P(names | evidence), one axis a name; eliminates the rest afresh where no bucket holds them all."""
         problem = self.plan.problem
+        if len(names) == 1:
+            ((node, mapping),) = problem.located(names)
+            if node is not None and mapping is None:
+                return self.nodes((node,))
         wanted = problem.nodes(names)
-        if len(wanted) == 1 and len(names) == 1 and problem.located(names)[0][1] is None:
-            return self.nodes(wanted)
         return problem.expand(names, {wanted: self.nodes(wanted)})
 
     def nodes(self, wanted: tuple[int, ...]) -> FloatArray:
