@@ -13,7 +13,7 @@ from ..sights import Sights, give_sights
 from .actions import STAY, actions, declared, local_labels, names
 from .geometry import Ends, bearings, coordinates, lengths
 from .layout import Layout
-from .raw import Attributes, RawGraph, label, some
+from .raw import Attributes, RawGraph, label, shown, some
 
 POSES = ("motions", "displacement", "bearing", "none")
 """What an agent is told of a pose: the displacements that `graph.motions` declares; the displacement measured after
@@ -96,7 +96,7 @@ def _places(raw: RawGraph) -> list[Any]:
     places = [label(node, f"{raw.source}: id of node {i}") for i, (node, _) in enumerate(raw.nodes)]
     seen: set[Any] = set()
     if twice := [place for place in places if place in seen or seen.add(place)]:
-        raise WorldError(f"{raw.source}: two nodes have the id {twice[0]!r:.40}; give each its own")
+        raise WorldError(f"{raw.source}: two nodes have the id {shown(twice[0])}; give each its own")
     return places
 
 
@@ -108,8 +108,8 @@ def _ends(raw: RawGraph, number: dict[Any, int]) -> tuple[Ends, list[tuple[Attri
         ends = [number.get(label(end, f"{raw.source}: end of an edge")) for end in (source, target)]
         if ends[0] is None or ends[1] is None:
             nowhere = source if ends[0] is None else target
-            edge = f"the edge from {source!r:.40} to {target!r:.40}"
-            raise WorldError(f"{raw.source}: {edge} leads nowhere; there is no node {nowhere!r:.40}")
+            edge = f"the edge from {shown(source)} to {shown(target)}"
+            raise WorldError(f"{raw.source}: {edge} leads nowhere; there is no node {shown(nowhere)}")
         found.append((ends[0], ends[1]))
         edges.append((attributes, against))
     return np.array(found, dtype=np.int32).reshape(-1, 2), edges
@@ -134,7 +134,7 @@ def _check_ways(raw: RawGraph, places: Sequence[Any], first: NDArray[np.int64], 
         if len(set(row)) < len(row):
             twice = next(way for way in row if row.count(way) > 1)
             raise WorldError(
-                f"{raw.source}: two ways at {place!r:.40} are called {twice!r:.40}; give each its own name"
+                f"{raw.source}: two ways at {shown(place)} are called {shown(twice)}; give each its own name"
             )
 
 
@@ -174,7 +174,7 @@ def _sensors(
     for sensor, column in zip(sensed, columns, strict=True):
         if missing := [node for (node, _), value in zip(raw.nodes, column, strict=True) if value is None]:
             raise WorldError(
-                f"{raw.source}: {len(missing)} of {len(column)} nodes have no {sensor!r:.40} ({some(missing)}); "
+                f"{raw.source}: {len(missing)} of {len(column)} nodes have no {shown(sensor)} ({some(missing)}); "
                 f"give each one, or use {_GIVEN}"
             )
     return sensed, tuple(
@@ -189,7 +189,7 @@ def _named_sensors(raw: RawGraph, sensors: Sequence[str] | None) -> Sequence[str
         chosen = [chosen]
     if chosen is not None:
         if not isinstance(chosen, list | tuple) or not all(isinstance(name, str) for name in chosen):  # pyright: ignore[reportUnknownVariableType]
-            raise WorldError(f"{raw.source}: sensors are {chosen!r:.40}; give the names of attributes of nodes")
+            raise WorldError(f"{raw.source}: sensors are {shown(chosen)}; give the names of attributes of nodes")
         return [str(name) for name in chosen]  # pyright: ignore[reportUnknownVariableType, reportUnknownArgumentType]
     if any("sight" in attributes for _, attributes in raw.nodes):
         return ["sight"]
