@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .agent import Agent
 from .settings import Settings
+from .storage import read_header
 from .trace import StepRecord
 
-__all__ = ["Agent", "Settings", "StepRecord"]
+__all__ = ["Agent", "Settings", "StepRecord", "read_header"]

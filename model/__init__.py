@@ -8,9 +8,12 @@ from .dirichlet import EMPTY, SparseDirichlet
 from .distinct import distinct
 from .domain import Domain
 from .errors import CogmapError
+from .files import make_folder, write_through, write_whole
 from .graph import (
     MOST_DRAWN,
+    AllEvidence,
     ConditionalTable,
+    Evidence,
     Factor,
     FactorGraph,
     FloatArray,
@@ -22,16 +25,18 @@ from .graph import (
     equation,
     graph_svg,
     labelled,
+    log_bounds,
     quoted,
     sparse_values,
     table,
 )
 from .growth import GROWTHS, Growth, growth_named
-from .growth_event import GrowthEvent
+from .growth_event import KINDS, GrowthEvent
 from .growth_table import GrownPlace, GrowthDifference, growth_between, growth_table
 from .labels import decode, encode, identity, plain, shown
 from .learning import TABLE_RATES, TEXT_RATES, Learner, Rates
-from .map_tables import map_table
+from .map_graph import LEAST, how_known, map_graph, transitions
+from .map_tables import counts_of, map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .slices import Slice, take_slice, window_graph
@@ -42,11 +47,14 @@ __all__ = [
     "ELSEWHERE",
     "EMPTY",
     "GROWTHS",
+    "KINDS",
+    "LEAST",
     "MOST_DRAWN",
     "OPEN",
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
+    "AllEvidence",
     "Branch",
     "Change",
     "Changes",
@@ -54,6 +62,7 @@ __all__ = [
     "CognitiveMap",
     "ConditionalTable",
     "Domain",
+    "Evidence",
     "Factor",
     "FactorGraph",
     "FloatArray",
@@ -75,6 +84,7 @@ __all__ = [
     "SparseDirichlet",
     "SparseValues",
     "Variable",
+    "counts_of",
     "decode",
     "distinct",
     "encode",
@@ -83,9 +93,13 @@ __all__ = [
     "growth_between",
     "growth_named",
     "growth_table",
+    "how_known",
     "html_table",
     "identity",
     "labelled",
+    "log_bounds",
+    "make_folder",
+    "map_graph",
     "map_table",
     "plain",
     "quoted",
@@ -94,6 +108,9 @@ __all__ = [
     "sparse_values",
     "table",
     "take_slice",
+    "transitions",
     "updates",
     "window_graph",
+    "write_through",
+    "write_whole",
 ]

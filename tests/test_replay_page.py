@@ -150,7 +150,7 @@ def test_the_command_makes_the_page(name: str, page: str) -> None:
     [
         (["none.json"], "there is no file"),
         (["text.json"], "no recording, or truncated"),
-        (["walk.json", "--out", "walk.json"], "the recording itself"),
+        (["walk.json", "--out", "walk.json"], "the file that is read"),
         (["walk.json", "--out", "missing/page.html"], "cannot write"),
         ([], "Missing argument"),
     ],

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Settings
-from cogmap.experiments.session import Session, explored
+from cogmap.experiments import Session, explored
 from cogmap.experiments.studies.frame import STUDIES, Study, study_named
 from cogmap.experiments.studies.imagined import imagined_paths, room_of
 from cogmap.experiments.studies.saving import check_folder, save_study, study_report
@@ -108,7 +108,7 @@ def test_a_folder_that_appears_as_a_file_meanwhile(stub: Study, tmp_path: Path) 
 
 @pytest.fixture(scope="module")
 def session() -> Session:
-    session = explored("test", MAZES["3x3"], settings=Settings(look_ahead=4), seed=1, most=100)
+    session = explored("test", MAZES["3x3"], 1, settings=Settings(look_ahead=4), max_steps=100)
     session.agent.prefer({8: 3.0})
     session.agent.step(session.world.observe())
     return session

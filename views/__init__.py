@@ -5,7 +5,7 @@ from __future__ import annotations
 from .belief_map_plot import plot_belief_map
 from .belief_plot import plot_belief, plot_belief_bars
 from .certainty_plot import plot_certainty, plot_surprise
-from .colours import sight_colour
+from .colours import ink_on, sight_colour
 from .energy_plot import plot_expected_free_energy, plot_free_energy
 from .explain import Explanation, explain
 from .figures import explore_figure
@@ -15,6 +15,7 @@ from .map_plot import plot_map
 from .maze_plot import plot_maze
 from .policy_plot import plot_policies, policy_paths
 from .recording import Recorder, Recording
+from .replay import replay_html
 from .terms_plot import plot_terms
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "Recording",
     "explain",
     "explore_figure",
+    "ink_on",
     "plot_belief",
     "plot_belief_bars",
     "plot_belief_map",
@@ -37,5 +39,6 @@ __all__ = [
     "plot_surprise",
     "plot_terms",
     "policy_paths",
+    "replay_html",
     "sight_colour",
 ]

@@ -88,6 +88,10 @@ class Chart(Protocol):
         """
         ...
 
+    def length(self, place: Place, way: Any) -> float | None:
+        """How long a way is; None where nobody knows."""
+        ...
+
 
 @runtime_checkable
 class HasChart(Protocol):

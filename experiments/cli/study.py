@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .cli_explore import Dask, Jobs, Seed
+from .options import Dask, Jobs, Seed
 
 if TYPE_CHECKING:
-    from .ledger import Ledger
-    from .studies.everything import Asked, Outcome
-    from .studies.frame import Study
+    from ..ledger import Ledger
+    from ..studies.everything import Asked, Outcome
+    from ..studies.frame import Study
 
 Name = Annotated[
     str,
@@ -55,9 +55,9 @@ def study_command(
 
     exploration, rooms and growth keep every finished run in DIR/cells.jsonl: the same command goes on from there.
     """
-    from .studies.everything import Asked
-    from .studies.frame import EVERYTHING, STUDIES, study_named
-    from .studies.saving import check_folder
+    from ..studies.everything import Asked
+    from ..studies.frame import EVERYTHING, STUDIES, study_named
+    from ..studies.saving import check_folder
 
     folder, asked = out or Path(f"study-{name}"), Asked(runs, seed, look_ahead)
     if name == EVERYTHING:
@@ -74,9 +74,9 @@ def study_command(
 
 
 def _one(study: Study, folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
-    from .cli_progress import counting
-    from .executors import workers
-    from .studies.everything import run_study
+    from ..executors import workers
+    from ..studies.everything import run_study
+    from .progress import counting
 
     with workers(jobs=jobs, dask=dask) as executor, _kept(study, folder, asked) as ledger:
         outcome = run_study(study, folder, asked, counter=counting, executor=executor, ledger=ledger)
@@ -84,11 +84,11 @@ def _one(study: Study, folder: Path, asked: Asked, jobs: int, dask: str | None) 
 
 
 def _all(folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
-    from .cli_progress import counting
-    from .cli_table import show_lines
-    from .executors import workers
-    from .studies.everything import try_study, write_index
-    from .studies.frame import STUDIES
+    from ..executors import workers
+    from ..studies.everything import try_study, write_index
+    from ..studies.frame import STUDIES
+    from .progress import counting
+    from .tables import say
 
     outcomes: list[Outcome] = []
     keeper = next((study for study in STUDIES.values() if study.keeps_cells), None)
@@ -97,26 +97,25 @@ def _all(folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
             below = folder / study.name
             outcomes.append(try_study(study, below, asked, counter=counting, executor=executor, ledger=ledger))
             _show(outcomes[-1])
-    show_lines(None, [f"written: {path}" for path in write_index(folder, outcomes, asked)])
+    say(*(f"written: {path}" for path in write_index(folder, outcomes, asked)))
     if any(outcome.failure for outcome in outcomes):
         raise typer.Exit(SOME_FAILED)
 
 
 def _show(outcome: Outcome) -> None:
-    from .cli_table import console, show_lines
+    from .tables import say
 
     if outcome.failure is None:
-        show_lines(outcome.study.name, [*outcome.lines, *(f"written: {path}" for path in outcome.written)])
+        say(*outcome.lines, *(f"written: {path}" for path in outcome.written), title=outcome.study.name)
     else:
-        text = f"{outcome.study.name} failed: {outcome.failure}"
-        console().print(text, style="bold red", markup=False, highlight=False, soft_wrap=True)
+        say(f"{outcome.study.name} failed: {outcome.failure}", style="bold red")
 
 
 @contextmanager
 def _kept(study: Study | None, folder: Path, asked: Asked) -> Generator[Ledger | None]:
     """The ledger in the folder, if the study keeps one; on Ctrl-C it is said where the finished runs are."""
-    from .cli_group import INTERRUPTED, fail
-    from .studies.grid import ledger_in
+    from ..studies.grid import ledger_in
+    from .group import INTERRUPTED, fail
 
     if study is None or not study.keeps_cells:
         yield None

@@ -1,4 +1,4 @@
-"""The command `cogmap`."""
+"""The command `cogmap`: one module a command."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from typing import Annotated
 
 import typer
 
-from .cli_explore import explore_command
-from .cli_group import CogmapGroup
-from .cli_inspect import inspect_command
-from .cli_kidnap import kidnap_command
-from .cli_navigate import navigate_command
-from .cli_replay import replay_command
-from .cli_study import study_command
-from .cli_worlds import worlds_command
+from .explore import explore_command
+from .group import CogmapGroup
+from .inspect import inspect_command
+from .kidnap import kidnap_command
+from .navigate import navigate_command
+from .replay import replay_command
+from .study import study_command
+from .worlds import worlds_command
 
 app = typer.Typer(
     name="cogmap",

@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import typer
 
-from .cli_explore import Dask, Jobs, LookAhead, Policies, Runs, Seed, World
-
-MaxSteps = Annotated[
-    int | None,
-    typer.Option(min=1, help="Give up exploring after so many, and again what follows; 50 a room + 50 unless given."),
-]
-Json = Annotated[Path | None, typer.Option(metavar="FILE", help="Write the runs as JSON.")]
+from .options import Dask, Jobs, Json, LookAhead, MaxStepsTwice, Policies, Runs, Seed, World
 
 
 def kidnap_command(
@@ -21,7 +14,7 @@ def kidnap_command(
     runs: Runs = None,
     seed: Seed = 0,
     look_ahead: LookAhead = 6,
-    max_steps: MaxSteps = None,
+    max_steps: MaxStepsTwice = None,
     policies: Policies = "map_guided",
     jobs: Jobs = 1,
     dask: Dask = None,
@@ -31,55 +24,50 @@ def kidnap_command(
 
     Exit code 0, or 1 where the one run (without --runs) did not recover.
     """
-    from ..agent import Settings
-    from ..worlds import load_world
-    from .cli_progress import counting
-    from .cli_table import show_lines
-    from .executors import workers
-    from .kidnapping import check_kidnap, kidnap_many, kidnap_result
-    from .output import check_outputs, write_json
+    from ...worlds import load_world
+    from ..executors import workers
+    from ..kidnapping import check_kidnap, kidnap_many, kidnap_result
+    from ..output import check_outputs, write_json
+    from ..parts import Parts
+    from .progress import counting
+    from .tables import say, say_saved
 
     maze = load_world(world).maze
-    settings = Settings(look_ahead=look_ahead, policies=policies)
+    parts = Parts.named(growth="predicted", policies=policies, look_ahead=look_ahead)
     check_kidnap(maze)
-    check_outputs([json])
-    with (
-        workers(jobs=jobs, dask=dask) as executor,
-        counting(f"kidnapping in {maze.name}", runs or 1) as one_more,
-    ):
+    check_outputs([json], inputs=[world])
+    with workers(jobs=jobs, dask=dask) as executor, counting(f"kidnapping in {maze.name}", runs or 1) as one_more:
         done = kidnap_many(
-            maze, runs=runs or 1, settings=settings, seed=seed, max_steps=max_steps, executor=executor, on_done=one_more
+            maze, runs=runs or 1, seed=seed, agent=parts, max_steps=max_steps, executor=executor, on_done=one_more
         )
-    result = kidnap_result(maze, done, settings=settings, max_steps=max_steps)
-    show_lines(maze.name, _one(result["runs"][0], result["summary"]) if runs is None else _many(result))
+    result = kidnap_result(maze, done, agent=parts, max_steps=max_steps)
+    say(*(_one(result["runs"][0], result["summary"]) if runs is None else _many(result)), title=maze.name)
     if json is not None:
         write_json(json, result)
-        show_lines(None, [f"runs saved: {json}"])
+    say_saved(runs=json)
     if runs is None and not done[0].recovered:
         raise typer.Exit(1)
 
 
 def _one(run: dict[str, Any], summary: dict[str, Any]) -> list[str]:
-    from .cli_table import count
+    from ..statistics import count
 
     if run["moved_to"] is None:
         return [f"Not explored after {count(summary['max_steps'], 'step')}; allow more with --max-steps."]
     steps = run["steps_to_recover"]
-    found = (
-        f"not recovered after {count(summary['max_steps'], 'step')}"
-        if steps is None
-        else f"recovered after {count(steps, 'step')}"
-    )
+    found = count(summary["max_steps"] if steps is None else steps, "step")
     return [
         f"explored from {tuple(run['start'])} in {count(run['steps_to_explore'], 'step')}, then moved to "
         f"{tuple(run['moved_to'])} without a word",
-        f"{found}; certain but wrong at {run['steps_certain_but_wrong']}",
+        f"{'not ' if steps is None else ''}recovered after {found}; certain but wrong at "
+        f"{run['steps_certain_but_wrong']}",
         f"map intact: {'yes' if run['map_intact'] else 'no'}",
     ]
 
 
 def _many(result: dict[str, Any]) -> list[str]:
-    from .cli_table import number, seeds_of, spread
+    from ..statistics import number, spread
+    from .tables import seeds_of
 
     summary, runs = result["summary"], result["runs"]
     total = summary["runs"]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .cli_explore import Agent, Dask, Jobs, LookAhead, Policies, Runs, Seed, Trace, World
-from .cli_kidnap import Json, MaxSteps
+from .options import Agent, Dask, Jobs, Json, LookAhead, MaxStepsTwice, Policies, Runs, Seed, Trace, World
+
+if TYPE_CHECKING:
+    from ..navigating import NavigateOptions
 
 Goal = Annotated[str, typer.Option(metavar="LABEL", help="The label to go to; the agent is there when it stays.")]
 Unexplored = Annotated[bool, typer.Option("--unexplored", help="Set out in an unknown maze.")]
@@ -26,7 +28,7 @@ def navigate_command(
     runs: Runs = None,
     seed: Seed = 0,
     look_ahead: LookAhead = 6,
-    max_steps: MaxSteps = None,
+    max_steps: MaxStepsTwice = None,
     policies: Policies = "map_guided",
     weight: Weight = 8.0,
     close: Close = None,
@@ -39,76 +41,74 @@ def navigate_command(
 
     Exit code 0, or 1 where the one run (without --runs) did not reach it.
     """
-    from ..agent import Settings
-    from ..worlds import load_world
-    from .cli_progress import counting
-    from .cli_table import show_lines
-    from .closing import check_closed, parse_rooms
-    from .executors import workers
-    from .navigating import Options, check_goal, navigate, navigate_many, parse_goal
-    from .navigation import navigate_result
-    from .output import check_outputs, write_json
-    from .tracing import check_trace, recorder_of, recording
-    from .walkers import check_agent
+    from ...worlds import load_world
+    from ..executors import workers
+    from ..goals import check_goal, parse_goal
+    from ..navigating import navigate, navigate_many, navigate_result
+    from ..output import check_outputs, write_json
+    from ..parts import Parts
+    from .progress import counting
+    from .tables import say, say_saved
+    from .tracing import Tracing, check_trace
 
-    check_agent(agent)
     check_trace(agent, trace)
     maze = load_world(world).maze
-    label, closed = parse_goal(maze, goal), parse_rooms(maze, close or [])
-    check_closed(maze, label, closed, known=not unexplored)
-    check_goal(maze, label, weight)
-    check_outputs([json, trace])
-    options: Options = {
+    parts = Parts.named(agent, growth="predicted", policies=policies, look_ahead=look_ahead)
+    label, known, closed = parse_goal(maze, goal), not unexplored, [_room(text) for text in close or ()]
+    check_goal(maze, label, weight=weight, closed=closed, known=known)
+    check_outputs([json, trace], inputs=[world])
+    options: NavigateOptions = {
         "goal": label,
-        "known": not unexplored,
+        "known": known,
         "weight": weight,
-        "agent": agent,
-        "settings": Settings(look_ahead=look_ahead, policies=policies),
-        "max_steps": max_steps,
         "closed": closed,
+        "agent": parts,
+        "max_steps": max_steps,
     }
-    with (
-        workers(jobs=jobs, dask=dask) as executor,
-        counting(f"navigating in {maze.name}", runs or 1) as one_more,
-    ):
+    with workers(jobs=jobs, dask=dask) as executor, counting(f"navigating in {maze.name}", runs or 1) as one_more:
         done = navigate_many(maze, runs=runs or 1, seed=seed, executor=executor, on_done=one_more, **options)
     result = navigate_result(maze, done, **options)
-    show_lines(f"{maze.name}, goal {label}", _one(result) if runs is None else _many(result))
+    say(*(_one(result) if runs is None else _many(result)), title=f"{maze.name}, goal {label}")
     if json is not None:
         write_json(json, result)
-        show_lines(None, [f"runs saved: {json}"])
     if trace is not None:
-        recorder = recorder_of(maze, title=f"{maze.name}, goal {label}, seed {seed}", goals=[label])
-        navigate(maze, seed=seed, watch=recording(recorder), **options)
-        recorder.save(trace)
-        show_lines(None, [f"trace saved: {trace}"])
+        tracing = Tracing(trace, maze, title=f"{maze.name}, goal {label}, seed {seed}", goals=[label])
+        navigate(maze, seed, watch=tracing, **options)
+        tracing.save()
+    say_saved(runs=json, trace=trace)
     if runs is None and not done[0].reached:
         raise typer.Exit(1)
 
 
+def _room(text: str) -> tuple[int, int]:
+    from ...model import CogmapError
+
+    numbers = text.split(",")
+    if len(numbers) != 2 or not all(number.strip().isdecimal() for number in numbers):
+        raise CogmapError(f"close: {text!r} is no room; give ROW,COLUMN, such as 0,2")
+    return int(numbers[0]), int(numbers[1])
+
+
 def _one(result: dict[str, Any]) -> list[str]:
-    from .cli_table import count
+    from ..statistics import count
 
     run, most = result["runs"][0], result["summary"]["max_steps"]
     if run["start"] is None:
         return [f"Not explored after {count(most, 'step')}; allow more with --max-steps."]
-    where = f"unexplored, from {tuple(run['start'])}"
-    if not result["unexplored"]:
-        where = (
-            f"explored from {tuple(run['explored_from'])} in {count(run['steps_to_explore'], 'step')}, then moved to "
-            f"{tuple(run['start'])} without a word"
-        )
     found = (
         f"reached after {count(run['steps'], 'step')}" if run["reached"] else f"not reached after {count(most, 'step')}"
     )
-    lines = [where, f"{found}; shortest possible {run['shortest']}"]
+    found += f"; shortest possible {run['shortest']}"
     if result["unexplored"]:
-        lines.append(f"nearest-frontier search: {count(run['frontier_steps'], 'step')}")
-    return lines
+        frontier = f"nearest-frontier search: {count(run['frontier_steps'], 'step')}"
+        return [f"unexplored, from {tuple(run['start'])}", found, frontier]
+    explored = f"explored from {tuple(run['explored_from'])} in {count(run['steps_to_explore'], 'step')}"
+    return [f"{explored}, then moved to {tuple(run['start'])} without a word", found]
 
 
 def _many(result: dict[str, Any]) -> list[str]:
-    from .cli_table import number, seeds_of
+    from ..statistics import number
+    from .tables import seeds_of
 
     summary = result["summary"]
     lines = [f"reached {summary['reached']}/{summary['runs']}{', unexplored' if result['unexplored'] else ''}"]

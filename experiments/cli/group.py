@@ -46,8 +46,8 @@ def fail(message: str, *, code: int = BAD_INPUT) -> NoReturn:
 
 
 def _ours(error: ValueError) -> bool:
-    from ..model.errors import CogmapError
-    from ..worlds import WorldError
+    from ...model import CogmapError
+    from ...worlds import WorldError
 
     return isinstance(error, CogmapError | WorldError)
 
