@@ -336,7 +336,7 @@ def test_any_file_has_a_gymnasium_id(tmp_path: Path) -> None:
         ({"nodes": [{"id": 0, "sight": 1}, {"id": 0, "sight": 1}]}, "two nodes have the id 0"),
         (
             {"nodes": [{"id": 0, "sight": [[[[[1]]]]]}], "edges": []},
-            r"sight of a node is \[\[\[.*; use a word, a finite number",
+            "sight of a node is .*use a word, a finite",
         ),
         ({"nodes": [{"id": 0, "sight": [1] * 50}], "edges": []}, "sight of a node is .* short list"),
         ({"nodes": [1]}, "node 0 is 1"),
