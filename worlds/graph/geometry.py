@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,35 @@ from .raw import Attributes, Edges, RawGraph, number, shown, some
 Floats = NDArray[np.float64]
 Ends = NDArray[np.int32]
 _AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry:
+    """Positions of places, bearings and lengths of ways; None where unknown."""
+
+    coordinates: Floats | None
+    bearings: Floats | None
+    lengths: Floats | None
+
+    @classmethod
+    def of(cls, raw: RawGraph, ends: Ends, edges: Edges, *, needed: bool) -> Geometry:
+        """What a graph tells of it; see `coordinates`, `bearings` and `lengths`."""
+        where = coordinates(raw, needed=needed)
+        return cls(where, bearings(raw, ends, edges, where), lengths(raw, ends, edges, where))
+
+    def poses(self) -> list[str]:
+        """What can be told of a pose, the most first."""
+        lies = self.coordinates is not None or (self.bearings is not None and self.lengths is not None)
+        return ["displacement"] * lies + ["bearing"] * (self.bearings is not None) + ["none"]
+
+    def order(self, sources: NDArray[np.int32]) -> NDArray[np.intp]:
+        """The ways by the place that they leave, and there by their bearings."""
+        return np.lexsort((np.zeros(len(sources)) if self.bearings is None else self.bearings, sources))
+
+    def ordered(self, order: NDArray[np.intp]) -> Geometry:
+        """The same with ways in this order."""
+        bearings, lengths = (None if values is None else values[order] for values in (self.bearings, self.lengths))
+        return Geometry(self.coordinates, bearings, lengths)
 
 
 def coordinates(raw: RawGraph, *, needed: bool) -> Floats | None:
