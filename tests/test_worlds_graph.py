@@ -277,6 +277,28 @@ def test_closures_and_displacing_go_by_the_names_of_places(tmp_path: Path) -> No
         world.close_door(0, 2)
 
 
+def test_a_refused_reset_leaves_the_agent_and_what_it_measured() -> None:
+    graph = street(5, 0)
+    world = GraphWorld.from_networkx(graph)
+    world.reset(options={"start": 0})
+    measured = world.step(1)[0]["displacement"].tolist()
+    with pytest.raises(WorldError, match="no place 9"):
+        world.reset(options={"start": 9})
+    assert world.observe()["displacement"].tolist() == measured != [0.0, 0.0]
+
+
+def test_doors_between_places_of_any_names_can_be_closed() -> None:
+    graph = nx.path_graph(3)
+    nx.set_node_attributes(graph, 0, "sight")
+    world = GraphWorld.from_networkx(nx.relabel_nodes(graph, {0: "a", 1: (1, 2), 2: 3}))
+    world.reset(options={"start": (1, 2)})
+    for end in ("a", 3):
+        world.close_door((1, 2), end)
+        world.close_door(end, (1, 2))
+    assert len(world.closed_doors) == 2
+    assert set(world.observe()["ways"].values()) == {False}
+
+
 def test_layouts_are_equal_by_what_is_in_them_and_can_be_sent() -> None:
     layout = GraphWorld.from_networkx(street(6, 1)).layout
     other = pickle.loads(pickle.dumps(layout))
