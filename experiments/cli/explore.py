@@ -178,4 +178,4 @@ class _Task:
 
         known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
         title = f"{self.maze.name}, {agent}, seed {self.seed}"
-        return explore_figure(self.maze.sights, done.path, title=title, **known)
+        return explore_figure(self.maze, done.path, title=title, **known)

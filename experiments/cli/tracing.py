@@ -27,14 +27,14 @@ class Tracing:
 
     def __init__(self, path: Path | None, chart: Chart, *, title: str, goals: Iterable[Hashable] = ()) -> None:
         self._path = path
-        self._recorder = Recorder(chart.sights, title=title, goals=goals)
+        self._recorder = Recorder(chart, title=title, goals=goals)
 
     def __call__(self, moment: Moment) -> None:
         """Record a choice."""
         world = moment.world.unwrapped
         if self._path is not None and isinstance(moment.agent, Agent):
             closed = {name: getattr(world, name, ()) for name in ("closed_rooms", "closed_doors")}
-            self._recorder.add(moment.agent, position=place_of(moment.info), **closed)
+            self._recorder.add(moment.agent, place=place_of(moment.info), **closed)
 
     def save(self) -> None:
         """Write the file."""

@@ -14,7 +14,7 @@ from rich.style import Style
 from rich.text import Text
 
 from ...agent import Agent
-from ...views import ink_on, sight_colour
+from ...views import hexed, ink_on, sight_colour
 from ...worlds import Chart, Maze, Place
 from ..exploring import Walk
 from ..knowledge import BELIEVED, Truth
@@ -85,10 +85,9 @@ def _cell(maze: Maze, room: Place, first: dict[Place, int], width: int, line: in
         return " " * width, Style()
     label = maze.sights[room]
     colour = sight_colour(label)
-    background = "#" + "".join(f"{round(255 * part):02x}" for part in colour)
     ink = "#000000" if ink_on(colour) == "black" else "#ffffff"
     content = set_cell_size(str(label) if line == 0 else str(first.get(room, "")).rjust(width - 2), width - 2)
-    return f" {content} ", Style(color=ink, bgcolor=background, bold=line == 0)
+    return f" {content} ", Style(color=ink, bgcolor=hexed(colour), bold=line == 0)
 
 
 def _path(chart: Chart, path: Sequence[Place], *, unicode: bool) -> Text:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...model import CognitiveMap
 from ...planning import Plan
-from ...views import VERMILION, plot_maze, plot_policies, policy_paths, theme_of
+from ...views import VERMILION, plot_policies, plot_world, policy_paths, theme_of
 from ...worlds import Door, Maze, Position
 from .intervals import Interval, Share
 
@@ -108,10 +108,8 @@ def plot_ways(
     way: Sequence[Position] = (),
 ) -> None:
     """The maze, a closed room hatched, imagined paths by their probability, and the way of an agent up to its cross."""
-    plot_maze({room: sight for room, sight in maze.sights.items() if room != closed}, ax=ax)
+    plot_world(maze, closed=[] if closed is None else [closed], ax=ax)
     theme, rows, columns = theme_of(ax), [room[0] for room in way], [room[1] for room in way]
-    if closed is not None:
-        draw_room(ax, closed, facecolor=theme.paper, edgecolor=theme.shade(0.75), hatch="////", zorder=4)
     if imagined:
         plot_policies({path.rooms: path.probability for path in imagined}, ax=ax)
     for colour, width in ((theme.shade(0.65), 3.6), (theme.paper, 1.8)):
@@ -125,7 +123,7 @@ def plot_flow(ax: Axes, maze: Maze, paths: Sequence[Sequence[Position]], *, clos
     plot_ways(ax, maze, closed=closed)
     moves = [(min(at, to), max(at, to)) for path in paths for at, to in pairwise(path) if at != to]
     theme, counts = theme_of(ax), Counter[Door](moves)
-    for room in maze.rooms:
+    for room in set(maze.rooms) - {closed}:
         draw_room(ax, room, 1.0, facecolor=theme.paper, alpha=0.5, zorder=1.5)
     for (at, to), count in sorted(counts.items(), key=lambda item: item[1]):
         share = count / max(counts.values())
