@@ -190,14 +190,14 @@ class _Rows:
 
     @classmethod
     def of(cls, graph: FactorGraph, data: Data) -> _Rows:
-        columns = _columns(data)
-        lengths = {len(column) for column in columns.values()}
-        if len(lengths) != 1 or lengths == {0}:
+        columns, count = _columns(data)
+        if count == 0 or any(len(column) != count for column in columns.values()):
             raise CogmapError("fit: the data have no rows, or variables have different numbers of them")
         known = {*graph.evidence, *graph.likelihoods}
         if twice := [name for name in columns if name in known]:
             raise CogmapError(f"fit: {twice[0]!r} has data, and evidence in the graph; take one of them away")
-        indices = np.stack([_indices(graph, name, column) for name, column in columns.items()], axis=1)
+        by_name = [_indices(graph, name, column) for name, column in columns.items()]
+        indices = np.stack(by_name, axis=1) if by_name else np.zeros((count, 0), dtype=np.int64)
         unique, first, counts = np.unique(indices, axis=0, return_index=True, return_counts=True)
         return cls(list(columns), unique, counts.astype(float), first)
 
@@ -269,14 +269,16 @@ class _Rows:
         )
 
 
-def _columns(data: Data) -> dict[str, Sequence[Hashable]]:
+def _columns(data: Data) -> tuple[dict[str, Sequence[Hashable]], int]:
+    """Labels by variable, and the number of rows."""
     if isinstance(data, Mapping) or hasattr(data, "columns"):
-        return {str(name): list(column) for name, column in cast(Any, data).items()}
+        columns = {str(name): list(column) for name, column in cast(Any, data).items()}
+        return columns, max(map(len, columns.values()), default=0)
     rows = list(data)
     if not all(isinstance(row, Mapping) for row in cast(list[object], rows)):
         raise CogmapError("fit: give a mapping of variables to labels, or a list of rows that are mappings")
     names = dict.fromkeys(name for row in rows for name in row)
-    return {name: [row.get(name) for row in rows] for name in names}
+    return {name: [row.get(name) for row in rows] for name in names}, len(rows)
 
 
 def _indices(graph: FactorGraph, name: str, column: Sequence[Hashable]) -> IntArray:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..text import say
 from .options import Dask, Jobs, Seed
+from .progress import counting
 
 if TYPE_CHECKING:
     from ..studies import Outcome
@@ -54,8 +56,6 @@ def study_command(
     from ..executors import workers
     from ..studies import EVERYTHING, Asked, run_studies, run_study, study_named
     from .group import INTERRUPTED, fail
-    from .progress import counting
-    from .tables import say
 
     study = None if name == EVERYTHING else study_named(name)
     folder, asked = out or Path(f"study-{name}"), Asked(runs, seed, look_ahead)
@@ -76,8 +76,6 @@ def study_command(
 
 
 def _show(outcome: Outcome) -> None:
-    from .tables import say
-
     if outcome.failure:
         say(f"{outcome.study.name} failed: {outcome.failure}", style="bold red")
     else:
