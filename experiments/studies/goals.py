@@ -12,7 +12,7 @@ import numpy as np
 from ...agent import Settings
 from ...views import BLUE, GREEN, GREY, ORANGE, VERMILION, theme_of
 from ...worlds import MAZES, Label, Maze
-from .. import WEIGHT, NavigateRun, navigate
+from .. import WEIGHT, NavigateRun, Record, navigate
 from .figures import Axes, Figure, Look, panels, plot_bars
 from .intervals import Interval, bootstrap
 from .study import Findings, Study
@@ -31,7 +31,7 @@ Task = tuple[str, bool, int]  # world, whether its map is known, seed
 
 
 @dataclass(frozen=True, slots=True)
-class GoalRun:
+class GoalRun(Record):
     """One way to a goal."""
 
     world: str
@@ -39,11 +39,6 @@ class GoalRun:
     goal: Label  # to go to, drawn by the seed
     known: bool  # whether the maze was explored before
     run: NavigateRun
-
-    def to_dict(self) -> dict[str, Any]:
-        """The run as plain JSON values."""
-        own = {"world": self.world, "aliased": self.aliased, "goal": self.goal, "known": self.known}
-        return {**own, **self.run.to_dict()}
 
 
 class Goals(Study[Task, GoalRun]):

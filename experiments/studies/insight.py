@@ -68,12 +68,9 @@ class Insight(Study[int, tuple[InsightRow, InsightRow]]):
         return self._trained(task, lambda world: maze.agent_run(agent, world)), self._trained(task, control)
 
     def _trained(self, seed: int, one_run: Callable[[MazeEnv], TolmanRun]) -> InsightRow:
-        world = maze.new_world()
-        training = [one_run(world) for _ in range(self.runs)]
-        maze.set_closed(world, room=maze.B)
-        probe: list[TolmanRun] = []
+        training, probe = [one_run(maze.new_world()) for _ in range(self.runs)], list[TolmanRun]()
         while len(probe) < MOST and not (choice_after(probe) and probe[-1].reached_at is not None):
-            probe.append(one_run(world))
+            probe.append(one_run(maze.new_world(maze.B)))
         return InsightRow.of(seed, training, probe)
 
     def summarise(self, rows: Sequence[tuple[InsightRow, InsightRow]]) -> Findings:

@@ -17,7 +17,7 @@ from scipy import stats
 
 from ...agent import Agent, Settings
 from ...views import theme_of
-from ...worlds import Door, MazeEnv
+from ...worlds import Door
 from .. import Moment
 from . import tolman_maze as maze
 from .figures import Axes, Figure, panels, plot_bars, shares_axis
@@ -91,15 +91,14 @@ class Martinet(Study[int, MartinetRow]):
         From the second day on A is closed, but for two runs among them, and routes 2 and 3 are shut until it has been
         there; on the last day B instead of A. What it knows it keeps; between runs it is put back without a word.
         """
-        agent, world = maze.new_agent(settings, task), maze.new_world()
-        rng = np.random.default_rng([task, self.days])
-        runs = [_run(agent, world, 1, "forced", route) for route in ROUTES]
-        runs += [_run(agent, world, 1, "free") for _ in range(FREE)]
+        agent, rng = maze.new_agent(settings, task), np.random.default_rng([task, self.days])
+        runs = [_run(agent, 1, "forced", route) for route in ROUTES]
+        runs += [_run(agent, 1, "free") for _ in range(FREE)]
         for day in range(2, self.days + 1):
             free = free_runs(rng)
             for number in range(BLOCKED + 2):
-                runs.append(_run(agent, world, day, "free" if number in free else "A closed"))
-        runs += [_run(agent, world, self.days + 1, "B closed") for _ in range(PROBES)]
+                runs.append(_run(agent, day, "free" if number in free else "A closed"))
+        runs += [_run(agent, self.days + 1, "B closed") for _ in range(PROBES)]
         return MartinetRow.of(task, runs)
 
     def summarise(self, rows: Sequence[MartinetRow]) -> Findings:
@@ -137,10 +136,10 @@ def free_runs(rng: np.random.Generator) -> tuple[int, int]:
             return first, second
 
 
-def _run(agent: Agent, world: MazeEnv, day: int, condition: str, forced: int = 0) -> Run:
+def _run(agent: Agent, day: int, condition: str, forced: int = 0) -> Run:
     room = {"A closed": maze.A, "B closed": maze.B}.get(condition)
     shut = [door for route, door in ENTRANCES.items() if (forced or (1 if room else route)) != route]
-    maze.set_closed(world, room=room, doors=shut)
+    world = maze.new_world(room, shut)
 
     def open_when_met(moment: Moment) -> None:
         if room is not None and world.position == maze.BEFORE[room]:

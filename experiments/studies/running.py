@@ -10,12 +10,11 @@ from pathlib import Path
 from time import perf_counter
 
 from ...agent import Settings
-from ...model import make_folder
+from ...model import make_folder, write_whole
 from .. import check_outputs
-from .report import bullets, escape, table_markdown
-from .saving import made_with, report_texts, write_study, write_texts
+from .saving import made_with, write_report, write_study
 from .study import EVERYTHING, AnyStudy, studies
-from .tables import Table
+from .tables import Table, Value
 
 INDEX = "index"
 
@@ -140,23 +139,21 @@ def write_index(folder: Path, outcomes: Sequence[Outcome], asked: Asked) -> list
     Raises:
         CogmapError: a file cannot be written.
     """
-    links, failed, rows = list[str](), list[str](), list[tuple[str, int, float, str, int]]()
+    links, failed, rows = list[tuple[str, str]](), list[str](), list[tuple[Value, ...]]()
     for one in outcomes:
         name, state = one.study.name, "failed" if one.failure else "done"
         rows.append((name, one.agents, round(one.seconds, 1), state, len(one.failed)))
         if one.failure or one.failed:
             failed.append(f"{name}: {one.failure or f'{len(one.failed)} listed in its report'}")
         if not one.failure:
-            links.append(f"- [{escape(f'{one.study.asks[0]} ({name})')}](<{name}/{name}.md>)")
+            links.append((name, f"{one.study.asks[0]} ({name})"))
     heads = ("study", "agents", "seconds", "outcome", "failures listed")
     table = Table(INDEX, heads, rows, "How they went; what did not get there is listed in the reports")
+    write_whole(folder / f"{INDEX}.csv", table.csv().encode())
     whole = f"{len(links)} of {len(outcomes)} studies were run to their end. Each has a report of its own."
-    found = {"Parts": ["\n".join(links)], "What came of it": [table_markdown(table)]}
-    sections = {**found, "What failed": [bullets(failed or ["Nothing."])]}
     values = {"command": asked.command(EVERYTHING), "seed": asked.seed, **made_with()}
-    write_texts(folder, {f"{INDEX}.csv": table.csv()})
-    report = report_texts("Every study", whole, sections, values, [table], folder)
-    return write_texts(folder, {f"{INDEX}{suffix}": text for suffix, text in report.items()})
+    parts = {"question": whole, "links": links, "tables": [table], "failed": failed}
+    return write_report(folder / INDEX, "Every study", values, **parts)
 
 
 def _check(folder: Path, name: str) -> None:

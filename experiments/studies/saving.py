@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import os
 import platform
-from collections.abc import Mapping, Sequence
+import re
+from base64 import b64encode
+from collections.abc import Mapping
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from jinja2 import Environment, FileSystemLoader
+
 from ...model import write_whole
 from .. import write_json, write_picture
-from .report import bullets, code, escape, html_page, markdown, table_markdown
 from .study import AnyStudy, Findings
-from .tables import Table, flat, plain, tables_of
+from .tables import Table, Value, flat, plain, tables_of
 
 PICTURES = (".png", ".svg")
-CPUINFO = Path("/proc/cpuinfo")
 PACKAGES = ("cogmap", "numpy", "scipy", "gtsam")
 FACTS = ("agents", "seed", "machine", "versions", "protocol", "settings")  # of the JSON, to run a study again
+CPUINFO = Path("/proc/cpuinfo")
+LARGEST = 1_000_000  # bytes of a drawing (SVG) above which a page holds the picture (PNG) instead
 
 
 def write_study(folder: Path, study: AnyStudy, found: Findings, head: Mapping[str, Any]) -> list[Path]:
@@ -33,51 +37,77 @@ def write_study(folder: Path, study: AnyStudy, found: Findings, head: Mapping[st
     Raises:
         CogmapError: a file cannot be written; those before it are whole.
     """
-    json, (title, question), pictures = plain(found.json), study.asks, list[str]()
-    tables = tables_of(study.name, json) if found.tables is None else found.tables
-    written = [folder / f"{study.name}.json"]
+    json, (title, question), figures = plain(found.json), study.asks, list[tuple[str, str]]()
+    tables, written = found.tables, [folder / f"{study.name}.json"]
     write_json(written[0], {**head, **json})
-    written += write_texts(folder, {f"{table.name}.csv": table.csv() for table in tables})
+    tables = tables_of(study.name, json) if tables is None else tables
+    written += [write_whole(folder / f"{table.name}.csv", table.csv().encode()) for table in tables]
     for stem, draw in found.figures.items():
         figure = draw()
         titles = [figure.get_suptitle(), *(ax.get_title() for ax in figure.axes), stem.replace("_", " ")]
-        pictures.append(f"![{escape(next(filter(None, titles)))}](<{stem}.png>)")
+        figures.append((stem, next(filter(None, titles))))
         for suffix in PICTURES:
             written.append(folder / f"{stem}{suffix}")
             write_picture(written[-1], figure)
-    lines = [code(found.lines)] if found.tables is None else []
-    sections = {
-        "What came of it": [*lines, *pictures, *(table_markdown(table) for table in tables if table.shown)],
-        "What failed": [bullets(found.failed or ["Nothing."])],
-        "Notes": [bullets(study.notes)],
-    }
-    report = report_texts(f"{title} (study {study.name})", question, sections, {**head, **json}, tables, folder)
-    return written + write_texts(folder, {f"{study.name}{suffix}": text for suffix, text in report.items()})
+    parts = {"tables": tables, "figures": figures, "failed": found.failed, "notes": study.notes}
+    parts |= {"lines": found.lines if found.tables is None else (), "question": question}
+    return written + write_report(folder / study.name, f"{title} (study {study.name})", {**head, **json}, **parts)
 
 
-def report_texts(
-    title: str,
-    question: str,
-    sections: Mapping[str, Sequence[str]],
-    values: Mapping[str, Any],
-    tables: Sequence[Table],
-    folder: Path,
-) -> dict[str, str]:
-    """A report by suffix, Markdown and HTML; it ends with how to run it again, `values`, and its tables."""
-    facts = flat({name: values[name] for name in FACTS if name in values})
-    named = [f"- `{table.name}.csv`" + (f": {escape(table.caption)}" if table.caption else "") for table in tables]
-    again = [code([values["command"]]), table_markdown(Table("", ("what", "value"), list(facts.items())))]
-    text = markdown(title, question, {**sections, "Run it again": again, "Tables as CSV": ["\n".join(named)]})
-    return {".md": text, ".html": html_page(text, folder)}
+def write_report(stem: Path, title: str, values: Mapping[str, Any], **parts: Any) -> list[Path]:
+    """Write a report as Markdown, and with its pictures inside as HTML; answers with the files.
 
-
-def write_texts(folder: Path, texts: Mapping[str, str]) -> list[Path]:
-    """Write texts by the name of their file; answers with the files.
+    Args:
+        stem: of the files.
+        title: of the report.
+        values: of the JSON: `command`, and those of `FACTS` that are there.
+        parts: what else stands in it, see `report.jinja`.
 
     Raises:
         CogmapError: a file cannot be written.
     """
-    return [write_whole(folder / name, text.encode()) for name, text in texts.items()]
+    how: dict[str, Any] = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
+    templates = Environment(loader=FileSystemLoader(Path(__file__).parent), **how)
+    templates.filters |= {"md": escape, "cell": lambda value: escape(shown(value))}
+    facts = flat({name: values[name] for name in FACTS if name in values})
+    parts |= {"command": values["command"], "facts": Table("", ("what", "value"), list(facts.items()))}
+    text = templates.get_template("report.jinja").render(title=title, **parts)
+    page = templates.get_template("page.html").render(title=title, body=html_of(text, stem.parent))
+    texts = {".md": text, ".html": page}
+    return [write_whole(stem.with_name(stem.name + suffix), text.encode()) for suffix, text in texts.items()]
+
+
+def html_of(text: str, folder: Path) -> str:
+    """Markdown (CommonMark with tables) as HTML, with the pictures inside that it links, from `folder`.
+
+    HTML in it is shown, not obeyed; a picture that is not there is left a link.
+    """
+    from markdown_it import MarkdownIt
+
+    reader = MarkdownIt("commonmark", {"html": False}).enable("table")
+    tokens = reader.parse(text)
+    for token in [part for parent in tokens for part in (parent, *(parent.children or ()))]:
+        if token.type == "image":
+            token.attrs["src"] = _inside(folder, str(token.attrs["src"]))
+        elif token.type == "link_open":  # a page leads to pages
+            token.attrs["href"] = re.sub(r"\.md$", ".html", str(token.attrs["href"]))
+    body = str(reader.renderer.render(tokens, reader.options, {}))
+    return body.replace("<table>", '<div class="wide"><table>').replace("</table>", "</table></div>")
+
+
+def escape(text: str) -> str:
+    """Text that Markdown shows as it is, on one line."""
+    text = re.sub(r"[\\`*<&|]|(?<!\w)_|_(?!\w)", lambda sign: f"\\{sign[0]}", text)
+    return " ".join(text.replace("](", "]\\(").split())
+
+
+def shown(value: Value) -> str:
+    """A value for people: yes and no, a dash for none, four digits of what is no whole number."""
+    if value is None or isinstance(value, bool):
+        return {None: "–", True: "yes", False: "no"}[value]
+    if isinstance(value, float):
+        return f"{value:.4g}" if abs(value) < 1000.0 else f"{value:.0f}"
+    return str(value)
 
 
 def made_with() -> dict[str, Any]:
@@ -91,3 +121,13 @@ def made_with() -> dict[str, Any]:
         "versions": {**packages, "python": platform.python_version(), "platform": platform.platform()},
         "machine": {"processor": processor, **system, "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS")},
     }
+
+
+def _inside(folder: Path, name: str) -> str:
+    """The picture as a data URI, drawn if the drawing beside it is not too large."""
+    picture = folder / name
+    drawing = picture.with_suffix(".svg")
+    if drawing.is_file() and drawing.stat().st_size <= LARGEST:
+        picture = drawing
+    kind = "svg+xml" if picture.suffix == ".svg" else "png"
+    return f"data:image/{kind};base64,{b64encode(picture.read_bytes()).decode()}" if picture.is_file() else name

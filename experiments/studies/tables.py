@@ -34,6 +34,14 @@ class Table:
         columns = tuple(dict.fromkeys(column for row in rows for column in row))
         return cls(name, columns, [[row.get(column) for column in columns] for row in rows], caption, shown)
 
+    @property
+    def alignment(self) -> list[str]:
+        """By column, as Markdown has it: those that hold numbers only are set to the right."""
+        right = [
+            all(type(value) in (int, float, type(None)) for value in column) for column in zip(*self.rows, strict=True)
+        ]
+        return ["---:" if is_right else "---" for is_right in right or [False] * len(self.columns)]
+
     def csv(self) -> str:
         """The table as CSV with a line of heads; an empty field stands for none."""
         text = StringIO(newline="")

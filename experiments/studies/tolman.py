@@ -29,6 +29,8 @@ KNOB_AGENTS = 4  # at most, for each value of the knob but that of the study
 MISSED_OR: dict[int | None, Any] = {**COLOURS, None: GREY}  # colours of the routes, and of a missed goal
 
 Task = tuple[float, int]  # value of the knob, seed
+Runs = tuple[TolmanRun, ...]
+Counts = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,46 +40,7 @@ class TolmanRow:
     seed: int
     places: int  # of its map at the end; the maze has 23 rooms
     after_block: dict[str, int | None]  # the route, 2 or 3, first tried after the closed room was first met
-    blocks: dict[str, tuple[TolmanRun, ...]]
-
-
-@dataclass(frozen=True, slots=True)
-class Counts:
-    """The runs of one block, all agents together."""
-
-    runs: int
-    attempted: dict[int, Share]  # of all runs by route, the first set out on
-    reached: dict[int, Share]  # the same, the goal reached on it
-    goal_reached: Share
-    missed: dict[str, int]  # runs that missed the goal, by reason
-    runs_that_met_the_block: int
-    agents_by_first_route_after_the_block: dict[int, int]
-
-    @classmethod
-    def of(cls, rows: Sequence[TolmanRow], block: str) -> Counts:
-        """The counts of a block."""
-        runs = [run for row in rows for run in row.blocks[block]]
-        missed, after = Counter(run.missed for run in runs), [row.after_block[block] for row in rows]
-        return cls(
-            runs=len(runs),
-            attempted=_shares([run.attempted for run in runs]),
-            reached=_shares([run.route for run in runs]),
-            goal_reached=wilson(sum(run.route is not None for run in runs), len(runs)),
-            missed={reason: missed[reason] for reason in maze.MISSED},
-            runs_that_met_the_block=sum(run.met_at is not None for run in runs),
-            agents_by_first_route_after_the_block={route: after.count(route) for route in ROUTES},
-        )
-
-    def compared(self, block: str) -> tuple[int, ...]:
-        """Runs by route and, last, all others, counted as the paper counts that block."""
-        shares = self.attempted if block == "B closed" else self.reached
-        routes = [0 if block == "B closed" and route == 1 else share.count for route, share in shares.items()]
-        return (*routes, self.runs - sum(routes))
-
-    @property
-    def why(self) -> str:
-        """Why runs missed the goal."""
-        return ", ".join(f"{count} {reason}" for reason, count in self.missed.items() if count)
+    blocks: dict[str, Runs]
 
 
 @dataclass(frozen=True)
@@ -110,10 +73,9 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
     def run(self, task: Task, settings: Settings) -> tuple[float, TolmanRow]:
         """Three blocks with one memory."""
         value, seed = task
-        agent, world = maze.new_agent(replace(settings, information_weight=value), seed), maze.new_world()
-        blocks: dict[str, tuple[TolmanRun, ...]] = {}
+        agent, blocks = maze.new_agent(replace(settings, information_weight=value), seed), dict[str, Runs]()
         for block, closed in BLOCKS.items():
-            maze.set_closed(world, room=closed)
+            world = maze.new_world(closed)
             blocks[block] = tuple(maze.agent_run(agent, world) for _ in range(self.runs))
         choices = {block: maze.choice_after(runs) for block, runs in blocks.items()}
         after = {block: choice and choice.route for block, choice in choices.items()}
@@ -132,11 +94,37 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
         figures = {"tolman_flow": partial(_flow, agents, blocks), "tolman_routes": partial(_routes, agents, blocks)}
         figures |= {"tolman_runs": partial(_runs, agents), "tolman_knob": partial(_knob, knob, nearest)}
         failed = [
-            f"{block}: goal reached in {counts.goal_reached.count} of {counts.runs} runs ({counts.why})"
+            f"{block}: goal reached in {counts['goal_reached'].count} of {counts['runs']} runs ({_why(counts)})"
             for block, counts in blocks.items()
-            if counts.why
+            if _why(counts)
         ]
         return Findings(json, _lines(blocks, knob, nearest), figures, failed=failed)
+
+
+def counted(rows: Sequence[TolmanRow], block: str) -> Counts:
+    """The runs of one block, all agents together: shares of all of them by route, and what they missed."""
+    runs = [run for row in rows for run in row.blocks[block]]
+    missed, after = Counter(run.missed for run in runs), [row.after_block[block] for row in rows]
+    return {
+        "runs": len(runs),
+        "attempted": _shares([run.attempted for run in runs]),  # the first set out on
+        "reached": _shares([run.route for run in runs]),
+        "goal_reached": wilson(sum(run.route is not None for run in runs), len(runs)),
+        "missed": {reason: missed[reason] for reason in maze.MISSED},
+        "runs_that_met_the_block": sum(run.met_at is not None for run in runs),
+        "agents_by_first_route_after_the_block": {route: after.count(route) for route in ROUTES},
+    }
+
+
+def compared(counts: Counts, block: str) -> tuple[int, ...]:
+    """Runs by route and, last, all others, counted as the paper counts that block."""
+    shares = counts["attempted" if block == "B closed" else "reached"]
+    routes = [0 if block == "B closed" and route == 1 else share.count for route, share in shares.items()]
+    return (*routes, counts["runs"] - sum(routes))
+
+
+def _why(counts: Counts) -> str:
+    return ", ".join(f"{count} {reason}" for reason, count in counts["missed"].items() if count)
 
 
 def _setting(value: float, rows: Sequence[TolmanRow]) -> dict[str, Any]:
@@ -145,8 +133,8 @@ def _setting(value: float, rows: Sequence[TolmanRow]) -> dict[str, Any]:
     The distance from the paper's table is the total variation of the shares by route and of missed runs, mean of the
     blocks.
     """
-    blocks = {block: Counts.of(rows, block) for block in BLOCKS}
-    apart = [total_variation(counts.compared(block), PAPER[block]) for block, counts in blocks.items()]
+    blocks = {block: counted(rows, block) for block in BLOCKS}
+    apart = [total_variation(compared(counts, block), PAPER[block]) for block, counts in blocks.items()]
     return {"value": value, "agents": len(rows), "distance": sum(apart) / len(apart), "blocks": blocks}
 
 
@@ -157,16 +145,16 @@ def _shares(routes: Sequence[int | None]) -> dict[int, Share]:
 def _lines(blocks: dict[str, Counts], knob: Sequence[dict[str, Any]], nearest: dict[str, Any]) -> list[str]:
     lines: list[str] = []
     for block, counts in blocks.items():
-        missed = f"; missed: {counts.why}" if counts.why else ""
+        missed = f"; missed: {_why(counts)}" if _why(counts) else ""
         counted = "attempts" if block == "B closed" else "reached"
         lines += [
-            f"{block}: {counts.goal_reached.count} of {counts.runs} runs reached the goal{missed}",
-            f"  reached by route 1, 2, 3   {_counted([*counts.reached.values()])}",
-            f"  set out on route 1, 2, 3   {_counted([*counts.attempted.values()])}",
+            f"{block}: {counts['goal_reached'].count} of {counts['runs']} runs reached the goal{missed}",
+            f"  reached by route 1, 2, 3   {_counted([*counts['reached'].values()])}",
+            f"  set out on route 1, 2, 3   {_counted([*counts['attempted'].values()])}",
             f"  the paper ({counted})".ljust(29) + _counted(_paper(block)[:3]),
         ]
         if BLOCKS[block] is not None:
-            after = counts.agents_by_first_route_after_the_block
+            after = counts["agents_by_first_route_after_the_block"]
             lines.append(f"  once it was met, {after[2]} agents tried route 2 next and {after[3]} route 3")
     tried = ", ".join(f"{one['value']:g}: {one['distance']:.2f}" for one in knob)
     near = f"{KNOB} nearest to the paper's table: {nearest['value']:g} (total variation by value: {tried})"
@@ -188,7 +176,7 @@ def _flow(rows: Sequence[TolmanRow], blocks: dict[str, Counts]) -> Figure:
         runs = [run for row in rows for run in row.blocks[block]]
         paths = [run.path[: run.reached_at + 1] for run in runs if run.reached_at is not None]
         maze.plot_tolman(ax, paths, closed=BLOCKS[block])
-        ax.set_title(f"{block}: {counts.goal_reached.count} of {counts.runs} runs", fontsize=12)
+        ax.set_title(f"{block}: {counts['goal_reached'].count} of {counts['runs']} runs", fontsize=12)
     return figure
 
 
@@ -196,12 +184,12 @@ def _routes(rows: Sequence[TolmanRow], blocks: dict[str, Counts]) -> Figure:
     title = f"Share of all runs by route ({len(rows)} agent{'s' * (len(rows) > 1)}), with 95 % intervals (Wilson)"
     figure, axes = panels(title, (1, 3), (12.0, 4.6), sharey=True)
     for ax, (block, counts) in zip(axes, blocks.items(), strict=True):
-        none = wilson(counts.runs - sum(share.count for share in counts.attempted.values()), counts.runs)
-        missed = wilson(counts.runs - counts.goal_reached.count, counts.runs)
+        none = wilson(counts["runs"] - sum(share.count for share in counts["attempted"].values()), counts["runs"])
+        missed = wilson(counts["runs"] - counts["goal_reached"].count, counts["runs"])
         paper = {"color": theme_of(ax).paper, "edgecolor": theme_of(ax).shade(0.7), "hatch": "///"}
         for shift, label, shares, look in (
-            (-0.27, "first set out on", [*counts.attempted.values(), none], {"color": SKY}),
-            (0.0, "goal reached on it", [*counts.reached.values(), missed], {"color": COLOURS[1]}),
+            (-0.27, "first set out on", [*counts["attempted"].values(), none], {"color": SKY}),
+            (0.0, "goal reached on it", [*counts["reached"].values(), missed], {"color": COLOURS[1]}),
             (0.27, "the paper", _paper(block), paper),
         ):
             at, texts = [place + shift for place in range(4)], [str(share.count) for share in shares]
@@ -261,11 +249,11 @@ def _draw_knob(ax: Axes, knob: Sequence[dict[str, Any]], block: str) -> None:
     for index, (colour, marker, line) in enumerate(zip(colours, "os^x", ("-", "--", "-.", ":"), strict=True)):
         if index == 0 and BLOCKS[block] is not None:
             continue
-        values = [wilson(part.compared(block)[index], part.runs) for part in counts]
+        values = [wilson(compared(part, block)[index], part["runs"]) for part in counts]
         at, name = [place + 0.06 * (index - 1.5) for place in range(len(knob))], f"route {index + 1}"
         look: Look = {"color": colour, "marker": marker}
         plot_line(ax, at, values, label=name if index < 3 else "none of these", linestyle=line, elinewidth=0.8, **look)
         ax.plot(end, PAPER[block][index] / PAPER_RUNS, markersize=10, clip_on=False, **look)
-    goal = [part.goal_reached.share for part in counts]
+    goal = [part["goal_reached"].share for part in counts]
     ax.plot(range(len(knob)), goal, color=theme_of(ax).ink, linewidth=1.0, label="goal reached")
     ax.set_xticks([*range(len(knob)), end], [*(f"{setting['value']:g}" for setting in knob), "paper"])

@@ -110,24 +110,15 @@ def new_agent(settings: Settings, seed: int) -> Agent:
     return agent
 
 
-def new_world() -> MazeEnv:
-    """The maze, with somebody at the start."""
+def new_world(closed: Position | None = None, doors: Sequence[Door] = ()) -> MazeEnv:
+    """The maze with this room and these doors closed, and somebody at the start."""
     world = MazeEnv(MAZE)
     world.reset(options={"start": START})
-    return world
-
-
-def set_closed(world: MazeEnv, *, room: Position | None = None, doors: Sequence[Door] = ()) -> None:
-    """Close this room and these doors, and open all else."""
-    world.displace(START)
-    for closed in world.closed_rooms - {room}:
-        world.open_room(closed)
-    for closed_door in world.closed_doors - set(doors):
-        world.open_door(*closed_door)
-    if room is not None:
-        world.close_room(room)
+    if closed is not None:
+        world.close_room(closed)
     for door in doors:
         world.close_door(*door)
+    return world
 
 
 def agent_run(agent: Agent, world: MazeEnv) -> TolmanRun:
