@@ -8,12 +8,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..inference import ENGINES
-from ..inference.message import FilterOptions
-from ..model.cognitive_map import Priors
-from ..model.errors import CogmapError
-from ..model.growth import GROWTHS
-from ..model.learning import Rates
+from ..inference import ENGINES, FilterOptions
+from ..model import GROWTHS, CogmapError, Priors, Rates
 from ..planning import CHOICES, GENERATORS
 from ..planning.horizon import STARTS
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..agent import Agent, Settings
 from ..agent.storage import read_header
-from ..model.cognitive_map import BLOCKED, ELSEWHERE, OPEN, CognitiveMap
+from ..model import BLOCKED, ELSEWHERE, OPEN, CognitiveMap
 from ..model.growth_event import KINDS
 from ..model.growth_table import growth_between, growth_table
 from ..model.labels import encode, plain

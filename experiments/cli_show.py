@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..agent import Agent
-from ..model.cognitive_map import BLOCKED, OPEN, CognitiveMap
+from ..model import BLOCKED, OPEN, CognitiveMap
 from ..views import sight_colour
 from ..views.colours import ink_on
 from ..worlds import GRID, Maze, Position

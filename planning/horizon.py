@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.cognitive_map import ELSEWHERE, CognitiveMap
+from ..model import ELSEWHERE, CognitiveMap
 from ..model.dirichlet import EMPTY
 from ..model.distinct import distinct
 from ..model.errors import CogmapError

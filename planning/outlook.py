@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.cognitive_map import ELSEWHERE, CognitiveMap
+from ..model import ELSEWHERE, CognitiveMap
 from ..model.errors import CogmapError
 from .information import dirichlet_information
 from .kept import Kept

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.cognitive_map import CognitiveMap
+from ..model import CognitiveMap
 from .outlook import Outlook
 from .transitions import Ints
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from cogmap.model.cognitive_map import CognitiveMap
+from cogmap.model import CognitiveMap
 from cogmap.model.errors import CogmapError
 from cogmap.planning import Reach, Transitions, horizon, map_guided, plan
 from cogmap.planning.horizon import cut_reach

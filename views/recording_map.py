@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..agent import Agent
-from ..model.cognitive_map import BLOCKED, OPEN, CognitiveMap
+from ..model import BLOCKED, OPEN, CognitiveMap
 
 if TYPE_CHECKING:
     import networkx as nx

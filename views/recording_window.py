@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model import FactorGraph
-from ..model.cognitive_map import CognitiveMap
+from ..model import CognitiveMap
 from ..model.labels import encode
 from ..model.slices import Slice, window_graph
 
