@@ -25,16 +25,13 @@ from ..model import (
     Sensor,
     Slice,
     StaticGrowth,
+    Whereabouts,
     map_state,
     restore_map,
     take_slice,
     window_graph,
 )
-from ..planning import Plan
-from ..planning.choice import consider
-from ..planning.horizon import cut_reach
-from ..planning.outlook import Outlook
-from ..planning.preferences import Preferences
+from ..planning import CHOICES, POLICIES, LocalCache, MapGuided, Plan, Planner, Preferences
 from . import storage
 from .mapper import Mapper
 from .packing import Arrays, pack, unpacked_state
@@ -59,12 +56,14 @@ class Agent:
         sensors: what it senses; `Sight("sight")` and `Ways()` unless given.
         pose: how places lie to each other; `Lattice()` unless given.
         growth: when places are added; `PredictedGrowth()` unless given.
+        planner: how it plans: policies, terms of G, choice; `Planner()` unless given.
         settings: every number; see `Settings`.
         seed: of the generator that breaks ties and draws policies.
 
     Attributes:
         map: what it believes the world to be.
         growth: its growth rule.
+        planner: its planner.
         rng: the generator.
         trace: one record a step that was answered.
 
@@ -79,10 +78,11 @@ class Agent:
         sensors: Iterable[Sensor] | None = None,
         pose: Pose | None = None,
         growth: Growth | None = None,
+        planner: Planner | None = None,
         settings: Settings | None = None,
         seed: Seed = None,
     ) -> None:
-        self._assemble(motions, sensors, pose, growth, settings or Settings(), seed)
+        self._assemble(motions, sensors, pose, growth, planner, settings or Settings(), seed)
         self.growth.begin(self.map, step=0)
 
     def _assemble(
@@ -91,12 +91,14 @@ class Agent:
         sensors: Iterable[Sensor] | None,
         pose: Pose | None,
         growth: Growth | None,
+        planner: Planner | None,
         settings: Settings,
         seed: Seed,
     ) -> None:
         """Put the parts together; the map is empty yet."""
         self._settings = settings
         self.growth = growth or _growth_of(settings)
+        self.planner = planner or _planner_of(settings)
         self.map = CognitiveMap(
             Motions.of(motions),
             sensors=sensors,
@@ -109,8 +111,9 @@ class Agent:
         self.rng = _generator(seed)
         self.trace: list[StepRecord] = []
         self._mapper = Mapper(self.map, self.growth, settings)
-        self._outlook = Outlook(self.map, settings.look_ahead)
+        self._cache = LocalCache(self.map, settings.look_ahead)
         self._plan: Plan | None = None
+        self.planner.check(self.map.motions, settings.look_ahead)
         dimensions = len(self.map.motions.displacements[0])
         self._state = State(Rivals.none(dimensions), deque[Slice](maxlen=settings.window + 1))
 
@@ -193,7 +196,7 @@ class Agent:
     def perceive(self, observation: Mapping[str, Any]) -> Belief:
         """Take in one observation: infer where it is, learn, and let the map grow.
 
-        Where another action than the one that was answered led here, the observation says so: `taken`, by name or index.
+        Where another action than the one answered led here, the observation says so: `taken`, by name or index.
 
         Raises:
             CogmapError: the observation lacks a key, a value is none that its sensor could have sensed, or nothing
@@ -326,7 +329,7 @@ class Agent:
         agent = cls.__new__(cls)
         made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth)
         motions = dict(zip(header["motions"]["names"], header["motions"]["displacements"], strict=True))
-        agent._assemble(motions, *made, Settings.from_dict(header["settings"]), None)
+        agent._assemble(motions, *made, None, Settings.from_dict(header["settings"]), None)
         restore_map(agent.map, header["map"], arrays)
         agent.rng.bit_generator.state = header["rng"]
         agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)
@@ -344,7 +347,7 @@ class Agent:
             state.belief = begin(self.map, 0, percept)
             return
         if percept.action is not None and percept.opened and self.certain:
-            self._mapper.enter(state.belief, percept.action, step=state.steps)
+            self._mapper.enter(Whereabouts(state.belief.places), percept.action, step=state.steps)
         support = self.settings.filter.support
         state.belief = advance(self.map, state.belief.message, percept, support=support)
         self._doubt(percept)
@@ -392,6 +395,7 @@ class Agent:
                 step=self._state.steps,
                 percept=percept,
                 examined=belief.examined,
+                ahead=belief.ahead,
             )
         )
 
@@ -412,25 +416,19 @@ class Agent:
     def _planned(self, preferences: GivenPreferences, rng: np.random.Generator) -> Plan:
         settings = self.settings
         places, q = self.belief.message.by_place
-        reach = cut_reach(
+        return self.planner.plan(
             self.map,
             places,
             q,
             open_=self._state.open or (True,) * len(self.map.motions),
             look_ahead=settings.look_ahead,
+            rng=rng,
             preferences=self._weighted(preferences),
+            precision=settings.precision,
             discount=settings.discount,
             information_weight=settings.information_weight,
             starts=settings.starts,
-            outlook=self._outlook,
-        )
-        return consider(
-            reach,
-            generator=settings.policies,
-            precision=settings.precision,
-            choice=settings.choice,
-            rng=rng,
-            beam=settings.beam,
+            cache=self._cache,
         )
 
     def _weighted(self, preferences: GivenPreferences) -> Preferences:
@@ -450,6 +448,12 @@ def _growth_of(settings: Settings) -> Growth:
             raise CogmapError("growth: static growth needs the size of the world; set Settings.places to 1 or more")
         return StaticGrowth(settings.places)
     return GROWTHS[settings.growth]()
+
+
+def _planner_of(settings: Settings) -> Planner:
+    beam = settings.policies == MapGuided.name
+    policies = MapGuided(beam=settings.beam) if beam else POLICIES[settings.policies]()
+    return Planner(policies=policies, choice=CHOICES[settings.choice]())
 
 
 def _generator(seed: Seed) -> np.random.Generator:

@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from ..inference import Belief, Message, infer
-from ..model import CognitiveMap, Growth, Percept, Position, Slice, window_graph
+import numpy as np
+
+from ..inference import Belief, infer
+from ..model import CognitiveMap, Growth, Percept, Position, Slice, Whereabouts, window_graph
 from .settings import Settings
 from .state import Moment
 
@@ -30,7 +32,7 @@ class Mapper:
         """The time step that begins now, to which `relive` may return."""
         return Moment(step, self._map.changes.mark(), len(self._map.visited_places), percept)
 
-    def enter(self, belief: Belief | Message, action: int, *, step: int) -> None:
+    def enter(self, belief: Whereabouts, action: int, *, step: int) -> None:
         """Before inference: the agent took a door that was open."""
         self._map.recall(self._growth.enter(self._map, belief, action, step=step))
 
@@ -41,7 +43,7 @@ class Mapper:
         if percept.action is not None:
             for previous, next_, weight in zip(*(part.tolist() for part in belief.pairwise), strict=True):
                 self._map.transitions.learn(previous, percept.action, next_, weight)
-        self._visit(belief, percept.readings, belief.certainty, step=step)
+        self._visit(Whereabouts(belief.places), percept.readings, belief.certainty, step=step)
 
     def catch_up(self, window: Sequence[Slice], pending: int, *, step: int) -> None:
         """Learn what was walked in the `pending` steps before the last, where the smoothed window is certain of it."""
@@ -54,7 +56,8 @@ class Mapper:
         for slice_ in waiting:
             q = posterior.marginal(f"s{slice_.step}")
             if q.max() >= self._settings.certainty:
-                belief = Message(slice_.places, slice_.places * 0, q)
+                ranked = np.argsort(-q, kind="stable")
+                belief = Whereabouts(dict(zip(slice_.places[ranked].tolist(), q[ranked].tolist(), strict=True)))
                 self._visit(belief, slice_.percept.readings, float(q.max()), step=step)
         at = {slice_.step: slice_ for slice_ in window}
         for t in steps:
@@ -65,7 +68,7 @@ class Mapper:
                 previous, next_ = int(at[t - 1].places[j]), int(at[t].places[i])
                 self._map.transitions.learn(previous, at[t].percept.action or 0, next_, float(walked[i, j]))
 
-    def _visit(self, belief: Belief | Message, readings: Mapping[str, Any], weight: float, *, step: int) -> None:
+    def _visit(self, belief: Whereabouts, readings: Mapping[str, Any], weight: float, *, step: int) -> None:
         """The agent is (or was) in the most probable place of `belief`: what is sensed there, and what lies beyond.
 
         Only the place that passed the gate learns: the prior of A_o is so small that even a hundredth of a count
@@ -87,7 +90,7 @@ class Mapper:
         present = self.moment(step, happened[-1])
         place = self._place_at(self._way_back(happened, position), step=step)
         for now, then in pairwise(happened):
-            self._visit(self._sure(place), now.readings, 1.0, step=step)
+            self._visit(Whereabouts({place: 1.0}), now.readings, 1.0, step=step)
             place = self._walk(place, then, step=step)
         return place, present
 
@@ -96,14 +99,11 @@ class Mapper:
         action = then.action or 0
         if action == self._map.motions.stay or not then.opened:
             return place
-        self.enter(self._sure(place), action, step=step)
+        self.enter(Whereabouts({place: 1.0}), action, step=step)
         there = self._map.beyond(place, action)
         assert there is not None  # an open door was just looked at, or entered
         self._map.transitions.learn(place, action, there, 1.0)
         return there
-
-    def _sure(self, place: int) -> Message:
-        return Message.sure(place, 0)
 
     def _place_at(self, position: Position, *, step: int) -> int:
         place = self._map.place_at(position)

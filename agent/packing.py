@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from typing import Any, cast
 
 import numpy as np
@@ -22,6 +22,10 @@ RECORDS: dict[str, type[Any]] = {
 """What is taken apart field by field, by name."""
 
 
+_OF_THE_STEP = ("log_likelihoods", "pruned", "ahead")
+"""Of a belief, what only the step that it is of needs."""
+
+
 def pack(value: Any, arrays: Arrays, path: str) -> Any:
     """A JSON value; what are arrays goes into `arrays`, named by where it stands.
 
@@ -31,8 +35,11 @@ def pack(value: Any, arrays: Arrays, path: str) -> Any:
     if isinstance(value, np.ndarray):
         arrays[path] = value.copy()
         return {"array": path}
+    if isinstance(value, Table):
+        value = replace(value, values=value.array)
     if is_dataclass(value):
-        parts = {field.name: getattr(value, field.name) for field in fields(value)}
+        left_out = _OF_THE_STEP if isinstance(value, Belief) else ()
+        parts = {field.name: getattr(value, field.name) for field in fields(value) if field.name not in left_out}
         packed = {name: pack(part, arrays, f"{path}.{name}") for name, part in parts.items()}
         return {"record": type(value).__name__, **packed}
     if isinstance(value, tuple | list | deque):
@@ -74,6 +81,7 @@ def unpacked_state(packed: Any, arrays: Mapping[str, NDArray[Any]], map_: Cognit
     """
     state: State = unpack(packed, arrays)
     state.window, state.recent = deque(state.window, maxlen=window + 1), deque(state.recent, maxlen=STEPS)
+    _check_rivals(state.rivals)
     if state.belief is not None:
         _check_belief(state.belief, map_)
     for slice_ in state.window:
@@ -84,6 +92,15 @@ def unpacked_state(packed: Any, arrays: Mapping[str, NDArray[Any]], map_: Cognit
     for variable in window_graph(map_, state.window).variables:  # its factors check their shapes
         assert variable.domain
     return state
+
+
+def _check_rivals(rivals: Rivals) -> None:
+    lists = rivals.since, rivals.visits, rivals.odds, rivals.coincidence
+    if rivals.positions.ndim != 2 or not all(map(_is_list, lists)) or {*map(len, lists)} != {len(rivals.positions)}:
+        raise CogmapError("the lists of the rivals do not fit one another")
+    kinds = "".join(part.dtype.kind for part in (rivals.positions, *lists))
+    if len(rivals.odds) and (kinds != "iiiff" or not np.isfinite([*rivals.odds, *rivals.coincidence]).all()):
+        raise CogmapError("the rivals are no numbers")
 
 
 def _check_belief(belief: Belief, map_: CognitiveMap) -> None:

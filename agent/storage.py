@@ -7,7 +7,7 @@ import struct
 import tokenize
 import zipfile
 import zlib
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike
@@ -58,7 +58,7 @@ def read(path: str | PathLike[str]) -> tuple[dict[str, Any], dict[str, NDArray[A
 
 
 @contextmanager
-def damage(path: str | PathLike[str]) -> Iterator[None]:
+def damage(path: str | PathLike[str]) -> Generator[None]:
     """What goes wrong within means that the file is damaged."""
     try:
         yield

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ..inference import Belief
 from ..model import Entry, GrowthEvent, ParameterUpdate, updates
-from ..planning import Plan
+from ..planning import Plan, Term
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +32,7 @@ class StepRecord:
         policy: the chosen policy, by action index.
         probability: its P(policy).
         G: its expected free energy, term by term, and their sum under `G`, in nats.
+        terms: what G is the sum of.
         policies: how many policies were considered.
         action: the action taken.
         sensed: label of what each sensor but that of the ways sensed, by its name.
@@ -55,6 +56,7 @@ class StepRecord:
     policy: tuple[int, ...]
     probability: float
     G: dict[str, float]
+    terms: tuple[Term, ...]
     policies: int
     action: int
     retracted: int | None = None
@@ -97,6 +99,7 @@ def record_of(
         policy=tuple(plan.policy.tolist()),
         probability=float(plan.probability[plan.chosen]),
         G=plan.expected_free_energy.row(plan.chosen),
+        terms=plan.expected_free_energy.terms,
         policies=len(plan.policies),
         action=plan.action,
         retracted=retracted,

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..agent import Agent, Settings
-from ..agent.storage import read_header
+from ..agent import Agent, Settings, read_header
 from ..model import BLOCKED, ELSEWHERE, OPEN, CognitiveMap
 from ..model.growth_event import KINDS
 from ..model.growth_table import growth_between, growth_table

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import GenerativeModel, Percept, distinct
+from ..model import CogmapError, GenerativeModel, Percept, Successors, distinct
 from .errors import ImpossibleEvidence
 from .message import Belief, Message
 
@@ -72,30 +72,32 @@ def begin(model: GenerativeModel, place: int, percept: Percept) -> Belief:
 
 def advance(model: GenerativeModel, message: Message, percept: Percept, *, support: float = 1e-3) -> Belief:
     """The belief after one more action and what is sensed then; places below `support` leave it."""
-    walked = _walk(model, message, percept)
+    if percept.action is None:
+        raise CogmapError("filter: the percept has no action; use begin() for the first one")
+    places, pair = distinct(message.places)
+    stays = model.pose.stays(percept.action, opened=percept.opened)
+    ahead = model.transitions.predict(places, percept.action, percept, stays=stays)
+    walked = _walk(model, message, percept, ahead.of(pair))
     displacement = 0.0 if model.displacement is None else model.displacement.probability
     share = float(np.exp(walked.log_joint).sum())
     if displacement <= support * share:  # even a perfect match elsewhere would be dropped
-        return _update(model, message, walked, None, support=support)
+        return _update(model, message, walked, None, support=support, ahead=ahead)
     displaced, left_out = _displaced(model, walked, percept, support)
-    return _update(model, message, walked, displaced, support=support, left_out=left_out)
+    return _update(model, message, walked, displaced, support=support, left_out=left_out, ahead=ahead)
 
 
-def _walk(model: GenerativeModel, message: Message, percept: Percept) -> _Candidates:
+def _walk(model: GenerativeModel, message: Message, percept: Percept, ahead: Successors) -> _Candidates:
     """Where the action leads: each successor with each pose that it may have then."""
-    action, opened = percept.action, percept.opened
-    assert action is not None
-    stays = model.pose.stays(action, opened=opened)
-    ahead = model.transitions.predict(message.places, action, percept, stays=stays)
     p = ahead.probability * message.mass[:, None]
     if model.displacement is not None:
         p *= 1.0 - model.displacement.probability
     source, slot = np.nonzero((ahead.places >= 0) & (p > 0.0))
     places, p, coupling = ahead.places[source, slot], p[source, slot], ahead.coupling[source, slot]
-    poses = model.pose.predict(message.positions, action, opened=opened)
+    poses = model.pose.predict(message.positions, percept.action or 0, opened=percept.opened)
     positions = np.concatenate([pose[source] for pose, _ in poses])
     weight = np.concatenate([p * probability for _, probability in poses])
-    places, source, coupling = (np.concatenate([part] * len(poses)) for part in (places, source, coupling))
+    kinds = len(poses)
+    places, source, coupling = np.tile(places, kinds), np.tile(source, kinds), np.tile(coupling, kinds)
     weight *= model.pose.fit(positions, places)
     fits = np.flatnonzero((positions >= 0) & (weight > 0.0))
     return _Candidates.seen(model, percept, places[fits], positions[fits], weight[fits], source[fits], coupling[fits])
@@ -142,6 +144,7 @@ def _update(
     *,
     support: float,
     left_out: float = 0.0,
+    ahead: Successors | None = None,
 ) -> Belief:
     all_ = walked if displaced is None else walked.joined(displaced)
     if not len(all_.weight):
@@ -173,6 +176,7 @@ def _update(
         examined=displaced is not None,
         pairwise=_pairwise(message, walked, walked_mass),
         pruned=(pair_places[~kept], joint[~kept] / z),
+        ahead=ahead,
     )
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ..model import CogmapError, Successors, is_number
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -74,11 +76,19 @@ class FilterOptions:
         displacement: P(moved_t): the agent was put into some visited place without being told.
         slip: P that a motion through an open door does not change the position, or through a blocked one does.
         support: posterior mass below which a place leaves the support.
+
+    Raises:
+        CogmapError: one is no number from 0 to 1.
     """
 
     displacement: float = 1e-4
     slip: float = 1e-4
     support: float = 1e-3
+
+    def __post_init__(self) -> None:
+        for name, value in asdict(self).items():
+            if not is_number(value, 0.0, 1.0):
+                raise CogmapError(f"settings: filter.{name} is {value!r}; use a number from 0 to 1")
 
 
 def _nothing() -> tuple[Ints, Floats]:
@@ -101,6 +111,7 @@ class Belief:
         log_likelihoods: `[n, F]` log P(reading | s_t) of each sensor that sensed something, in nats; empty in a belief
             that was loaded.
         pruned: places that were dropped from the support, and their mass beside the kept ones'.
+        ahead: where the action may have led from each place of the step before; None at first, and if loaded.
     """
 
     message: Message
@@ -113,6 +124,7 @@ class Belief:
     doubt: float = 0.0
     log_likelihoods: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     pruned: tuple[Ints, Floats] = field(default_factory=_nothing)
+    ahead: Successors | None = None
 
     @property
     def accuracy(self) -> float:

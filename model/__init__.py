@@ -23,6 +23,7 @@ from .factors import (
     Pose,
     Sensor,
     Sight,
+    Successors,
     Support,
     Table,
     Transition,
@@ -59,7 +60,7 @@ from .map_tables import counts_of, map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .percept import Percept
-from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates
+from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .slices import Slice, take_slice, window_graph
 from .updates import ParameterUpdate, updates
 
@@ -119,6 +120,7 @@ __all__ = [
     "SparseValues",
     "StaticGrowth",
     "Store",
+    "Successors",
     "Support",
     "Table",
     "Transition",
@@ -137,6 +139,7 @@ __all__ = [
     "how_known",
     "html_table",
     "identity",
+    "is_number",
     "labelled",
     "make_folder",
     "map_graph",

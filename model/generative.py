@@ -37,6 +37,7 @@ class GenerativeModel:
     Attributes:
         motions, pose: as given.
         sensors: by name, in order.
+        sights_sensed: those of them that see labels.
         transitions: where ways lead.
         displacement: the factor of being moved, or None.
         changes: the log of all that is written.
@@ -71,6 +72,7 @@ class GenerativeModel:
         self.sensors = {sensor.name: sensor for sensor in given}
         if len(self.sensors) < len(given):
             raise CogmapError("sensors: two have the same name; give each its own key in observations")
+        self.sights_sensed = tuple(sensor for sensor in given if isinstance(sensor, Sight))
         self._context = context = Context(
             motions, priors or Priors(), rates or Rates(), self.changes, self.growth, self.visits, slip
         )

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .graph import quoted
 from .factors import BLOCKED, OPEN, Sight
+from .graph import quoted
 from .labels import encode, plain, shown
 from .readable_map import ReadableMap
 
@@ -23,10 +23,11 @@ def map_graph(map_: ReadableMap) -> nx.MultiDiGraph[Any]:
     """Places as nodes, transitions as edges keyed by action name.
 
     Nodes carry `position` (None where it has none), `visited` (else it was imagined only), and `sights`
-    (label -> probability above a thousandth; under its name what another sensor of labels sees). Edges carry `action`, `probability` (of B_s), `count` (the evidence
-    for it, prior left out), and `known`, what is known of this way out of the place: `walked`, `imagined` (its door
-    was sensed open), `refuted` (sensed blocked) or `unknown` (its door was never sensed from this side; it may still
-    have a `count`, which came with the way here). Beyond a door without a known place there is no edge.
+    (label -> probability above a thousandth; what another sensor of labels sees stands under its name). Edges carry
+    `action`, `probability` (of B_s), `count` (the evidence for it, prior left out), and `known`, what is known of this
+    way out of the place: `walked`, `imagined` (its door was sensed open), `refuted` (sensed blocked) or `unknown` (its
+    door was never sensed from this side; it may still have a `count`, which came with the way here). Beyond a door
+    without a known place there is no edge.
     """
     import networkx as nx
 

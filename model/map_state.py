@@ -75,8 +75,5 @@ def _events(map_: ReadableMap, rows: NDArray[np.int64]) -> Iterator[GrowthEvent]
     for step, kind, index, source, action, number, by in rows.tolist():
         sensor = None if by < 0 else sensors[by]
         label = None if number < 0 else domains[sensor][number]
-        yield GrowthEvent(step, KINDS[kind], index, label, *_or_none([source, action]), sensor)
-
-
-def _or_none(numbers: list[int]) -> list[int | None]:
-    return [None if number < 0 else number for number in numbers]
+        source, action = (None if place < 0 else place for place in (source, action))
+        yield GrowthEvent(step, KINDS[kind], index, label, source, action, sensor)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from .factors import ELSEWHERE
 from .dirichlet import SparseDirichlet
 from .domain import Domain
 from .errors import CogmapError
+from .factors import ELSEWHERE
 from .graph import LabelledTable
 from .labels import plain
 from .readable_map import ReadableMap

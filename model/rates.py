@@ -10,7 +10,8 @@ from .errors import CogmapError
 _TINY = 1e-300
 
 
-def _is_number(value: object, least: float, most: float) -> bool:
+def is_number(value: object, least: float, most: float) -> bool:
+    """Whether it is a number in [least, most]; a truth value is none, nor is a NaN."""
     try:
         return not isinstance(value, bool | str) and bool(least <= float(value) <= most)  # type: ignore[arg-type]
     except (TypeError, ValueError):
@@ -41,7 +42,7 @@ class Priors:
     def __post_init__(self) -> None:
         for name, value in zip((field.name for field in fields(self)), astuple(self), strict=True):
             most = 0.5 if name == "door_floor" else 1e300
-            if not _is_number(value, _TINY, most):
+            if not is_number(value, _TINY, most):
                 raise CogmapError(f"settings: priors.{name} is {value!r}; use a number above 0, at most {most:g}")
 
 
@@ -70,11 +71,11 @@ class Rates:
     def __post_init__(self) -> None:
         for name in ("possible", "impossible", "imagined"):
             pair: object = getattr(self, name)
-            fine = isinstance(pair, tuple | list) and len(pair) == 2 and all(_is_number(x, -1e300, 1e300) for x in pair)
+            fine = isinstance(pair, tuple | list) and len(pair) == 2 and all(is_number(x, -1e300, 1e300) for x in pair)
             if not fine:
                 raise CogmapError(f"settings: rates.{name} is {pair!r}; use two numbers, such as {(7.0, 5.0)}")
         for name, least in (("likelihood", 0.0), ("ceiling", _TINY)):
-            if not _is_number(value := getattr(self, name), least, inf) or value == inf:
+            if not is_number(value := getattr(self, name), least, inf) or value == inf:
                 raise CogmapError(f"settings: rates.{name} is {value!r}; use a finite number of {least:g} or more")
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .dirichlet import SparseDirichlet
 from .domain import Domain
 from .errors import CogmapError
-from .factors import Lattice, Sight
+from .factors import Lattice
 from .generative import GenerativeModel
 from .motions import Position
 
@@ -32,11 +32,6 @@ class ReadableMap(GenerativeModel):
         return {store.name: store for store in self.stores if isinstance(store, SparseDirichlet)}
 
     @property
-    def sights_sensed(self) -> tuple[Sight, ...]:
-        """The sensors that see labels, in order."""
-        return tuple(sensor for sensor in self.sensors.values() if isinstance(sensor, Sight))
-
-    @property
     def sights(self) -> Domain:
         """Labels of the first of them."""
         return self.sights_sensed[0].labels if self.sights_sensed else Domain("sights")
@@ -54,12 +49,8 @@ class ReadableMap(GenerativeModel):
 
     @property
     def A_p(self) -> SparseDirichlet:
-        """Counts of the positions of places.
-
-        Raises:
-            CogmapError: places have none.
-        """
-        return self._lattice.table
+        """Counts of the positions of places; empty where they have none."""
+        return self.pose.table
 
     @property
     def B_s(self) -> SparseDirichlet:
@@ -151,8 +142,6 @@ class ReadableMap(GenerativeModel):
 
     def positions_given_places(self) -> Floats:
         """A_p as an array `[P + 1, S]`; the last row is "no position yet"."""
-        if not isinstance(self.pose, Lattice):
-            return np.ones((1, len(self.places)))
         return self.A_p.dense(len(self.positions))
 
     def B(self) -> Floats:

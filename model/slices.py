@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .distinct import distinct
-from .factors import Support, Table
+from .factors import Successors, Support, Table
 from .generative import GenerativeModel
 from .graph import FactorGraph
 from .percept import Percept
@@ -48,6 +48,7 @@ def take_slice(
     step: int,
     percept: Percept,
     examined: bool,
+    ahead: Successors | None,
 ) -> Slice:
     """Snapshot of the factors over the support of the filtered joint.
 
@@ -59,11 +60,11 @@ def take_slice(
         step: the time step.
         percept: what it brought.
         examined: whether the filter looked at displacement.
+        ahead: where the action may have led from each place of the step before, as the filter had it.
     """
     (places, place_at), (positions, position_at) = distinct(pairs[0]), distinct(pairs[1])
     joint, told = np.zeros((len(places), len(positions))), np.empty((len(places), log_likelihoods.shape[1]))
     joint[place_at, position_at], told[place_at] = pairs[2], log_likelihoods
-    action = percept.action
     support = Support(
         step=step,
         percept=percept,
@@ -71,9 +72,9 @@ def take_slice(
         positions=positions,
         before=None if before is None else (before.places, before.positions),
         log_likelihoods=dict(zip(percept.readings, told.T, strict=True)),
-        stays=0.0 if action is None else model.pose.stays(action, opened=percept.opened),
         arrival=None if model.displacement is None else model.displacement.arrival(places),
         examined=examined,
+        ahead=None if before is None else ahead,
     )
     tables = tuple(table for factor in model.factors for table in factor.tables(support))
     return Slice(step, percept, places, positions, joint, tables)
@@ -113,4 +114,4 @@ def _emit(graph: FactorGraph, slice_: Slice) -> None:
         for label in table.observed:
             graph.variable(table.scope[0], (label,), time=slice_.step, observed=True)
     for table in slice_.tables:
-        graph.factor(table.name, table.scope, table.values, kind=table.kind, equation=table.equation)
+        graph.factor(table.name, table.scope, table.array, kind=table.kind, equation=table.equation)

@@ -1,4 +1,4 @@
-"""Beliefs of a level of the prefix tree from those of the level above: one product, whatever B is held as."""
+"""Beliefs of a level of the prefix tree from those of the level above: one product."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from .transitions import Transitions
+from .local import Transitions
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -20,34 +20,17 @@ FEW = 64
 """Places up to which one dense product for all actions is quicker than anything that spares work."""
 
 
-def predictor(B: Floats | Transitions) -> Predict:
-    """What predicts with B, an array `[R, R, K]` or successors."""
-    few = B.shape[0] <= FEW
-    if isinstance(B, Transitions):
-        return partial(_every_action, _by_place(B.by_place)) if few else partial(_successors, B)
-    if few:
-        return partial(_every_action, _by_place(np.ascontiguousarray(B.transpose(1, 2, 0))))
-    return partial(_action_by_action, B.transpose(2, 1, 0))
-
-
-def _by_place(B: Floats) -> Floats:
-    """`[R, K * R]` from `[R, K, R]`, B[s, a, s']."""
-    return B.reshape(len(B), -1)
+def predictor(B: Transitions) -> Predict:
+    """What predicts with B."""
+    if B.shape[0] <= FEW:
+        return partial(_every_action, B.by_place.reshape(B.shape[0], -1))
+    return partial(_successors, B)
 
 
 def _every_action(B: Floats, before: Floats, parent: Ints, action: Ints) -> Floats:
-    """All actions of every parent, and of these the children."""
+    """All actions of every parent, and of these the children, with B `[R, K * R]`, B[s, a, s']."""
     size = len(B)
     return (before @ B).reshape(-1, size).take(parent * (B.shape[1] // size) + action, axis=0)
-
-
-def _action_by_action(B: Floats, before: Floats, parent: Ints, action: Ints) -> Floats:
-    """The children of each action, with B `[K, R, R]`, B[a, s, s']."""
-    after = np.empty((len(parent), before.shape[1]))
-    for a in np.flatnonzero(np.bincount(action)).tolist():
-        these = action == a
-        after[these] = before[parent[these]] @ B[a]
-    return after
 
 
 def _successors(B: Transitions, before: Floats, parent: Ints, action: Ints) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from cogmap.model.distinct import distinct
-from cogmap.planning.kept import Kept
+from cogmap.planning.local.rows import Rows
 from cogmap.planning.prefixes import prefixes_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -45,7 +45,7 @@ def test_rows_are_worked_out_once_and_again_after_they_are_forgotten(ops: list[t
         asked.extend(rows.tolist())
         return np.array([[truth[row], row] for row in rows.tolist()]), rows * 2
 
-    kept = Kept(compute)
+    kept = Rows(compute)
     known: set[int] = set()
     for step, (op, rows) in enumerate(ops):
         if op != "ask":
@@ -56,19 +56,18 @@ def test_rows_are_worked_out_once_and_again_after_they_are_forgotten(ops: list[t
         truth.update(dict.fromkeys(rows - known, step))
         asked.clear()
         if len(wanted):
-            first, second = kept.rows(wanted)
+            first, second = kept.columns(wanted, 0, 1)
             assert first.tolist() == [[truth[row], row] for row in sorted(rows)]
             np.testing.assert_array_equal(second, wanted * 2)
-            np.testing.assert_array_equal(kept.row_of(1, wanted), second)
         assert set(asked) == rows - known
         known |= rows
 
 
 def test_rows_that_become_wider_are_worked_out_again() -> None:
     width = 1
-    kept = Kept(lambda rows: (np.repeat(rows[:, None], width, axis=1),))
-    assert kept.rows(np.array([3, 1]))[0].tolist() == [[3], [1]]
+    kept = Rows(lambda rows: (np.repeat(rows[:, None], width, axis=1),))
+    assert kept.columns(np.array([3, 1]), 0)[0].tolist() == [[3], [1]]
     width = 2
-    assert kept.rows(np.array([1]))[0].tolist() == [[1]]  # nobody said that it had changed
-    assert kept.rows(np.array([1, 7]))[0].tolist() == [[1, 1], [7, 7]]
-    assert kept.rows(np.array([3]))[0].tolist() == [[3, 3]]
+    assert kept.columns(np.array([1]), 0)[0].tolist() == [[1]]  # nobody said that it had changed
+    assert kept.columns(np.array([1, 7]), 0)[0].tolist() == [[1, 1], [7, 7]]
+    assert kept.columns(np.array([3]), 0)[0].tolist() == [[3, 3]]

@@ -140,9 +140,9 @@ def test_imagined_paths_are_those_of_the_world(session: Session) -> None:
 def test_a_divided_belief_has_paths_from_every_place(session: Session) -> None:
     plan = session.agent.plan
     inside = np.flatnonzero(plan.places >= 0)[:2]
-    belief = np.zeros_like(plan.reach.belief)
+    belief = np.zeros_like(plan.model.belief)
     belief[inside] = 0.25, 0.75
-    divided = replace(plan, reach=replace(plan.reach, belief=belief))
+    divided = replace(plan, model=replace(plan.model, belief=belief))
     mass = {}
     for path in imagined_paths(divided, session.agent.map, session.start):
         mass[path.rooms[0]] = mass.get(path.rooms[0], 0.0) + path.probability

@@ -8,7 +8,7 @@ import pytest
 from cogmap.agent import StepRecord
 from cogmap.model import CogmapError
 from cogmap.views import plot_certainty, plot_free_energy, plot_surprise, plot_terms
-from cogmap.views.terms import TERMS
+from cogmap.views.terms import signed_label
 from cogmap.views.terms_plot import LONGEST, best_policies, policy_name
 from matplotlib.axes import Axes
 from matplotlib.container import BarContainer
@@ -59,10 +59,10 @@ def test_terms_are_those_of_the_plan_and_add_up_to_G() -> None:
     shown, G = best_policies(plan, 6), plan.expected_free_energy.G
     assert G[shown[0]] == pytest.approx(G.min())
     bars = {part.get_label(): np.array([bar.get_width() for bar in part]) for part in ax.containers}  # type: ignore[union-attr]
-    for key, term in TERMS.items():
-        values = term.sign * getattr(plan.expected_free_energy, key)[shown]
-        if term.name in bars:
-            assert bars[term.name] == pytest.approx(values)
+    for term in plan.expected_free_energy.terms:
+        values, label = term.sign * plan.expected_free_energy[term.name][shown], signed_label(term)
+        if label in bars:
+            assert bars[label] == pytest.approx(values)
         else:
             assert values == pytest.approx(0.0, abs=1e-6)
     assert sum(bars.values()) == pytest.approx(G[shown], abs=1e-5)
@@ -83,7 +83,7 @@ def test_the_chosen_policy_is_marked_even_where_others_are_better() -> None:
 
 def test_policies_have_short_names() -> None:
     motions = SimpleNamespace(names=["up", "down", "stay"])
-    plan = SimpleNamespace(reach=SimpleNamespace(motions=motions), policies=np.array([[0, 0, 1, 2], [0, 1, 0, 1]]))
+    plan = SimpleNamespace(model=SimpleNamespace(motions=motions), policies=np.array([[0, 0, 1, 2], [0, 1, 0, 1]]))
     assert policy_name(plan, 0) == "2 up, down, stay"  # type: ignore[arg-type]
     plan.policies = np.array([[0, 1] * 12])
     assert policy_name(plan, 0).endswith("…")  # type: ignore[arg-type]

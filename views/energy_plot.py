@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .axes import axes_or_new, legend_below
 from .colours import BLUE, SKY
-from .terms import TERMS
+from .terms import STYLES, colour_of, signed_label
 from .theme import theme_of
 from .time_axis import Trace, bars_of, finish, mark_events, marker, steps_of
 
@@ -70,10 +71,10 @@ def plot_expected_free_energy(trace: Trace, *, title: str | None = None, ax: Axe
     theme = theme_of(ax)
     ax.axhline(0.0, color=theme.shade(0.25), linewidth=0.8)
     dots: dict[str, Any] = {"marker": marker(trace), "markersize": 3}
-    for key, term in TERMS.items():
-        values = np.array([term.sign * record.G[key] for record in trace])
+    for term, style in zip(trace[-1].terms, cycle(STYLES)):
+        values = np.array([term.sign * record.G[term.name] for record in trace])
         if np.abs(values).max() > NOTHING:
-            ax.plot(steps, values, label=term.name, color=theme.line(term.colour), linestyle=term.style, **dots)
+            ax.plot(steps, values, label=signed_label(term), color=theme.line(colour_of(term)), linestyle=style, **dots)
     G = np.array([record.G["G"] for record in trace])
     ax.plot(steps, G, label="G", color=theme.ink, **dots)
     if np.abs(G).max() <= NOTHING:

@@ -11,19 +11,8 @@ import numpy as np
 from ..agent import Agent
 from ..model.errors import CogmapError
 from ..model.labels import encode, plain
-from ..planning import Plan, Policies, evaluate
-from ..planning.choice import SLACK, TIE, contenders
+from ..planning import TIE, Plan, Policies, Term, evaluate
 from .explain_text import explanation_html, explanation_text
-
-SIGNS = {
-    "collision": 1.0,
-    "state_information": -1.0,
-    "sight_information": -1.0,
-    "position_information": -1.0,
-    "transition_information": -1.0,
-    "utility": -1.0,
-}
-"""G is the sum of the terms with these signs (eqs. 5 and 8)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +43,7 @@ class WeighedPolicy:
         probability: P(policy).
         place: the place where it most probably ends; None for somewhere never imagined.
         place_probability: how probable that is.
+        contributions: the terms with the sign they have in G: they add up to it.
     """
 
     index: int
@@ -62,11 +52,7 @@ class WeighedPolicy:
     probability: float
     place: int | None
     place_probability: float
-
-    @property
-    def contributions(self) -> dict[str, float]:
-        """The terms with the sign they have in G: they add up to it."""
-        return {name: sign * self.terms[name] for name, sign in SIGNS.items()}
+    contributions: dict[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,12 +67,14 @@ class Rejected:
             good or better, but it does not lead as far out), `drawn` (as good or better; policies are drawn from
             P(policy)), `later` (it lost most in a term that it gets as much of, only later: a longer way), or `less`
             (it lost most in that term).
+        words: the verdict for people; empty where a term tells.
     """
 
     policy: WeighedPolicy
     worse: dict[str, float]
     term: str | None
     verdict: str
+    words: str
 
     @property
     def difference(self) -> float:
@@ -119,6 +107,7 @@ class Explanation:
 
     Attributes:
         step: the time step of the choice.
+        terms: of G.
         belief: the most probable places.
         certainty: Q of the first of them.
         doubt: probability that the belief went astray at an earlier step.
@@ -127,6 +116,7 @@ class Explanation:
         cut: prefixes that the bound on the search left out.
         generator: the policy generator.
         choice: `outward`, `best` or `sampled`.
+        how: what that means.
         precision: γ of P(policy).
         chosen: the policy chosen.
         equals: policies that were as good, this one included: among them the lot was drawn (with `sampled`, none was).
@@ -140,6 +130,7 @@ class Explanation:
     """
 
     step: int
+    terms: tuple[Term, ...]
     belief: tuple[BelievedPlace, ...]
     certainty: float
     doubt: float
@@ -148,6 +139,7 @@ class Explanation:
     cut: int
     generator: str
     choice: str
+    how: str
     precision: float
     chosen: WeighedPolicy
     equals: int
@@ -176,7 +168,10 @@ class Explanation:
         Raises:
             CogmapError: a label cannot be written as JSON.
         """
-        values = asdict(self)
+        values = asdict(replace(self, terms=()))
+        values["terms"] = [
+            {name: getattr(term, name) for name in ("name", "label", "sign", "kind")} for term in self.terms
+        ]
         values["sights"] = [[_json(label), value] for label, value in self.sights]
         values["belief"] = [{**asdict(place), "sight": _json(place.sight)} for place in self.belief]
         return values
@@ -194,28 +189,30 @@ def explain(agent: Agent, *, most: int = 5) -> Explanation:
     """
     if most < 1:
         raise CogmapError(f"explain: most is {most}; give 1 or more policies to tell of")
-    plan, belief, settings, wishes = agent.plan, agent.belief, agent.settings, agent.wishes
+    plan, belief, settings, wishes = agent.plan, agent.belief, agent.settings, agent.preferences
     G = plan.expected_free_energy.G
     ranked = [int(policy) for policy in np.argsort(G, kind="stable")[:most]]
-    equals = set(contenders(plan.reach, plan.policies, G, how=settings.choice).tolist())
+    equals = set(plan.choice.contenders(plan.model, plan.policies, G).tolist())
     lesser = [int(policy) for policy in np.argsort(G, kind="stable") if int(policy) not in equals][:most]
     told = [policy for policy in dict.fromkeys([*ranked, *lesser]) if policy != plan.chosen]
     return Explanation(
         step=agent.steps - 1,
+        terms=plan.expected_free_energy.terms,
         belief=tuple(_believed(agent, place, q) for place, q in list(belief.places.items())[:most]),
         certainty=belief.certainty,
         doubt=belief.doubt,
         considered=len(plan.policies),
         length=plan.policies.shape[1],
         cut=plan.cut,
-        generator=settings.policies,
-        choice=settings.choice,
+        generator=plan.generator.name,
+        choice=plan.choice.name,
+        how=plan.choice.how,
         precision=settings.precision,
         chosen=_weighed(plan, plan.chosen),
-        equals=len(equals) if settings.choice != "sampled" else 1,
+        equals=len(equals) if plan.choice.by_lot else 1,
         best=tuple(_weighed(plan, policy) for policy in ranked),
-        rejected=_rejected(plan, told, equals, settings.choice),
-        actions=tuple(_first(plan, action) for action in range(len(plan.reach.motions))),
+        rejected=_rejected(plan, told),
+        actions=tuple(_first(plan, action) for action in range(len(plan.model.motions))),
         sights=tuple(wishes.sights.items()),
         places=tuple(wishes.places.items()),
         goal_weight=settings.goal_weight,
@@ -232,57 +229,49 @@ def _believed(agent: Agent, place: int, probability: float) -> BelievedPlace:
 
 
 def _weighed(plan: Plan, policy: int) -> WeighedPolicy:
-    reach, actions = plan.reach, plan.policies[policy].tolist()
-    q = reach.belief
+    model, actions = plan.model, plan.policies[policy].tolist()
+    q, row = model.belief, plan.expected_free_energy.row(policy)
     for action in actions:
-        q = reach.B[:, :, action] @ q
-    place = int(reach.places[q.argmax()])
+        q = model.B[:, :, action] @ q
+    place = int(model.places[q.argmax()])
     return WeighedPolicy(
         index=policy,
-        actions=tuple(reach.motions.names[action] for action in actions),
-        terms=plan.expected_free_energy.row(policy),
+        actions=tuple(model.motions.names[action] for action in actions),
+        terms=row,
         probability=float(plan.probability[policy]),
         place=None if place < 0 else place,
         place_probability=float(q.max()),
+        contributions={term.name: term.sign * row[term.name] for term in plan.expected_free_energy.terms},
     )
 
 
-def _rejected(plan: Plan, policies: list[int], equals: set[int], choice: str) -> tuple[Rejected, ...]:
+def _rejected(plan: Plan, policies: list[int]) -> tuple[Rejected, ...]:
     if not policies:
         return ()
-    chosen = plan.expected_free_energy.row(plan.chosen)
-    later = evaluate(replace(plan.reach, discount=1.0), Policies(plan.policies[[plan.chosen, *policies]]))
+    energy = plan.expected_free_energy
+    chosen, G = energy.row(plan.chosen), energy.G
+    sooner = Policies(plan.policies[[plan.chosen, *policies]])
+    undiscounted = evaluate(replace(plan.model, discount=1.0), sooner, energy.terms)
     found: list[Rejected] = []
     for at, policy in enumerate(policies, start=1):
-        terms = plan.expected_free_energy.row(policy)
-        worse = {name: sign * (terms[name] - chosen[name]) for name, sign in SIGNS.items()}
-        term = max(worse, key=lambda name: worse[name])
-        verdict = _tied(plan, policy, equals, choice)
-        if verdict is None:
-            undiscounted = SIGNS[term] * float(np.diff(getattr(later, term)[[0, at]])[0])
-            verdict = "later" if undiscounted <= TIE < worse[term] else "less"
-        found.append(Rejected(_weighed(plan, policy), worse, term if verdict in ("less", "later") else None, verdict))
+        row = energy.row(policy)
+        worse = {term.name: term.sign * (row[term.name] - chosen[term.name]) for term in energy.terms}
+        verdict = plan.choice.passed_over(plan.model, plan.policies, G, plan.chosen, policy)
+        if verdict is not None:
+            found.append(Rejected(_weighed(plan, policy), worse, None, verdict.name, verdict.words))
+            continue
+        lost = max(energy.terms, key=lambda term: worse[term.name])
+        later = lost.sign * float(np.diff(undiscounted[lost.name][[0, at]])[0]) <= TIE < worse[lost.name]
+        found.append(Rejected(_weighed(plan, policy), worse, lost.name, "later" if later else "less", ""))
     return tuple(found)
-
-
-def _tied(plan: Plan, policy: int, equals: set[int], choice: str) -> str | None:
-    """Why a policy that is no worse than the chosen one was not taken; None where it is worse."""
-    G = plan.expected_free_energy.G
-    if choice == "sampled":
-        return "drawn" if G[policy] - G[plan.chosen] <= TIE else None
-    if policy in equals:
-        return "lot"
-    if choice == "outward" and plan.reach.indifferent and G[policy] <= G.min() + SLACK:
-        return "outward" if plan.reach.frontier.max(initial=-1.0) >= 0.0 else None
-    return "moves" if G[policy] - G.min() <= TIE else None
 
 
 def _first(plan: Plan, action: int) -> FirstAction:
     begins = plan.policies[:, 0] == action
     G = plan.expected_free_energy.G[begins]
     return FirstAction(
-        action=plan.reach.motions.names[action],
-        blocked=float(plan.reach.belief @ plan.reach.collision[:, action]),
+        action=plan.model.motions.names[action],
+        blocked=float(plan.model.belief @ plan.model.blocked[:, action]),
         policies=int(begins.sum()),
         probability=float(plan.probability[begins].sum()),
         best=float(G.min()) if len(G) else None,

@@ -11,36 +11,8 @@ from ..model.labels import shown
 from ..model.markup import safe
 
 if TYPE_CHECKING:
+    from ..planning import Term
     from .explain import BelievedPlace, Explanation, Rejected, WeighedPolicy
-
-HEADINGS = {
-    "G": "G",
-    "collision": "collision",
-    "state_information": "I state",
-    "sight_information": "I sight",
-    "position_information": "I position",
-    "transition_information": "I transition",
-    "utility": "utility",
-}
-"""Columns of the table of policies."""
-
-HOW = {
-    "outward": "the least G, or nearly so and furthest out",
-    "best": "the least G",
-    "sampled": "drawn from P(policy)",
-}
-"""What the ways to choose mean."""
-
-WORDS = {
-    "collision": "risk of collision",
-    "state_information": "information about where it is",
-    "sight_information": "information about sights (A_o)",
-    "position_information": "information about positions (A_p)",
-    "transition_information": "information about transitions (B_s)",
-    "utility": "utility",
-}
-
-EQUATION = "G = collision - I state - I sight - I position - I transition - utility, in nats"
 
 
 def explanation_text(told: Explanation) -> str:
@@ -49,7 +21,7 @@ def explanation_text(told: Explanation) -> str:
         *_belief(told),
         *_choice(told),
         "",
-        EQUATION,
+        _equation(told),
         str(_table(told)),
         "",
         *(f"why not {line}" for line in reasons(told)),
@@ -61,10 +33,20 @@ def explanation_text(told: Explanation) -> str:
 
 def explanation_html(told: Explanation) -> str:
     """The whole explanation as HTML."""
-    head = "".join(f"<p>{safe(line)}</p>" for line in (*_belief(told), *_choice(told), EQUATION))
+    head = "".join(f"<p>{safe(line)}</p>" for line in (*_belief(told), *_choice(told), _equation(told)))
     items = "".join(f"<li>{safe(line)}</li>" for line in reasons(told))
     foot = f"<p>first actions: {safe('; '.join(_first_actions(told)))}</p><p>{safe(_preferences(told))}</p>"
     return f"<div>{head}{_table(told).html()}<p>why not</p><ul>{items}</ul>{foot}</div>"
+
+
+def _equation(told: Explanation) -> str:
+    added, taken = ([_heading(term) for term in told.terms if term.sign == sign] for sign in (1.0, -1.0))
+    return f"G = {' - '.join([' + '.join(added), *taken])}, in nats"
+
+
+def _heading(term: Term) -> str:
+    """A column of the table of policies."""
+    return f"I {term.label.removesuffix(' information')}" if term.kind == "information" else term.label
 
 
 def policy_words(actions: Sequence[str]) -> str:
@@ -77,7 +59,7 @@ def reasons(told: Explanation) -> list[str]:
     """What ruled out the rejected policies, those of the same fate on one line."""
     fates: dict[str, list[str]] = {}
     for lost in told.rejected:
-        fates.setdefault(_reason(lost), []).append(policy_words(lost.policy.actions))
+        fates.setdefault(_reason(told, lost), []).append(policy_words(lost.policy.actions))
     return [f"{' / '.join(policies)}: {fate}" for fate, policies in fates.items()]
 
 
@@ -98,10 +80,9 @@ def _place(believed: BelievedPlace) -> str:
 
 def _choice(told: Explanation) -> list[str]:
     cut = f"{told.cut} prefixes cut" if told.cut else "none cut"
-    how = HOW[told.choice]
     lines = [
         f"it weighed {told.considered} {'policy' if told.considered == 1 else 'policies'} of {told.length} steps "
-        f"({told.generator}, {cut}) and chose ({how}, precision {told.precision:g})",
+        f"({told.generator}, {cut}) and chose ({told.how}, precision {told.precision:g})",
         f"  {policy_words(told.chosen.actions)}: G {_number(told.chosen.terms['G'])} nats, "
         f"P {told.chosen.probability:.3f}, ends {_end(told.chosen)}",
     ]
@@ -121,26 +102,25 @@ def _table(told: Explanation) -> LabelledTable:
     ordered = sorted(listed.values(), key=lambda policy: (policy.terms["G"], policy.index != told.chosen.index))
     marks = (" *" if policy.index == told.chosen.index else "" for policy in ordered)
     index = tuple(policy_words(policy.actions) + mark for policy, mark in zip(ordered, marks, strict=True))
-    cells = [[policy.probability, *(policy.terms[name] for name in HEADINGS)] for policy in ordered]
-    return LabelledTable(cells, index, ("P", *HEADINGS.values()), "policy (* chosen)", digits=3)
+    shown = sorted(told.terms, key=lambda term: -term.sign)
+    cells = [
+        [policy.probability, policy.terms["G"], *(policy.terms[term.name] for term in shown)] for policy in ordered
+    ]
+    return LabelledTable(cells, index, ("P", "G", *map(_heading, shown)), "policy (* chosen)", digits=3)
 
 
-def _reason(lost: Rejected) -> str:
-    if lost.verdict == "lot":
-        return "as good; the lot fell on another"
-    if lost.verdict == "moves":
-        return "as good, but it moves more, and where something is preferred those that move least come first"
-    if lost.verdict == "outward":
-        return "about as good, but while it only explores what leads further out comes first"
-    if lost.verdict == "drawn":
-        return f"no worse ({lost.difference:+.3f} nats), but the draw from P(policy) fell on another"
-    word, by = WORDS[lost.term or ""], lost.worse[lost.term or ""]
-    total = f"{lost.difference:.3f} nats worse"
-    if lost.term == "collision":
-        return f"{total}, most of all by its {word} ({by:.3f} more)"
+def _reason(told: Explanation, lost: Rejected) -> str:
+    if lost.term is None:
+        return lost.words
+    term = next(term for term in told.terms if term.name == lost.term)
+    by, total = lost.worse[lost.term], f"{lost.difference:.3f} nats worse"
+    if term.sign > 0.0:
+        return f"{total}, most of all by its {term.meaning} ({by:.3f} more)"
     if lost.verdict == "later":
-        return f"{total}, most of all in {word}: it gets as much, but later, a longer way ({by:.3f} less for it)"
-    return f"{total}, most of all in {word} ({by:.3f} less)"
+        return (
+            f"{total}, most of all in {term.meaning}: it gets as much, but later, a longer way ({by:.3f} less for it)"
+        )
+    return f"{total}, most of all in {term.meaning} ({by:.3f} less)"
 
 
 def _first_actions(told: Explanation) -> list[str]:

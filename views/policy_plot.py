@@ -48,10 +48,10 @@ def policy_paths(
     positions = [map_.position(place) if place >= 0 else None for place in plan.places.tolist()]
     cells = [None if at is None else (flat(at)[0] + down, flat(at)[1] + right) for at in positions]
     shares: defaultdict[tuple[Cell, ...], float] = defaultdict(float)
-    for first in np.flatnonzero(plan.reach.belief >= least).tolist():
+    for first in np.flatnonzero(plan.model.belief >= least).tolist():
         for policy in np.flatnonzero(plan.probability >= least / 10).tolist():
             if path := _path(plan, cells, first, policy):
-                shares[path] += float(plan.reach.belief[first] * plan.probability[policy])
+                shares[path] += float(plan.model.belief[first] * plan.probability[policy])
     return dict(
         sorted(
             (item for item in shares.items() if item[1] >= least and item[1] > 0.0),
@@ -89,7 +89,7 @@ def plot_policies(paths: Paths, *, title: str | None = None, ax: Axes | None = N
 def _path(plan: Plan, cells: Sequence[Cell | None], first: int, policy: int) -> tuple[Cell, ...]:
     at, path = first, [cells[first]]
     for action in plan.policies[policy].tolist():
-        ahead = int(plan.reach.successor[at, action])
+        ahead = int(plan.model.successor[at, action])
         at = at if ahead < 0 else ahead
         if cells[at] != path[-1]:
             path.append(cells[at])

@@ -13,7 +13,7 @@ from ..model.labels import decode, encode
 from . import recording_file
 from .recording_check import check
 from .recording_map import KNOWN, MapPicture, MapWatch
-from .recording_plan import TERMS, plan_frame
+from .recording_plan import plan_frame
 from .recording_window import Window, window_frames
 
 DIGITS = 4
@@ -172,7 +172,7 @@ class Recorder:
                     "stay": map_.motions.stay,
                 },
                 "settings": settings.to_dict(),
-                "terms": list(TERMS),
+                "terms": list(self._agent.plan.expected_free_energy.names),
                 "known": list(KNOWN),
                 "sights": [encode(label) for label in map_.sights],
                 "maze": self._maze,

@@ -137,7 +137,7 @@ def _touched(agent: Agent) -> set[int]:
     """The places of which anything may have changed at the last step."""
     map_, record = agent.map, agent.trace[-1]
     touched = {agent.belief.place, *(lesson.place for lesson in record.learned)}
-    for part in agent.belief.walks[:2]:
+    for part in agent.belief.pairwise[:2]:
         touched.update(part.tolist())
     for event in record.grown:
         if event.kind in ("place", "bind", "unbind"):

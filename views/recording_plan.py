@@ -6,15 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ..planning import Plan
-from ..planning.choice import TIE
-from ..planning.energy import ExpectedFreeEnergy
+from ..planning import TIE, Plan
 
 MOST = 12
 """Policies that are kept, the best ones."""
-
-TERMS: tuple[str, ...] = tuple(ExpectedFreeEnergy.__slots__)
-"""Names of the terms of G, in the order in which they are written."""
 
 DIGITS = 4
 
@@ -22,13 +17,13 @@ DIGITS = 4
 def plan_frame(plan: Plan) -> dict[str, Any]:
     """What a person wants to know of a plan, as JSON values.
 
-    `policies` (actions by index), `P`, `G`, `terms` (in the order of `TERMS`) and `paths` (places of the map, the
-    present one first, -1 from where nothing is imagined) have an entry a policy, the least G first. `mean` has the
-    terms of all that were considered, on average.
+    `policies` (actions by index), `P`, `G`, `terms` (in the order of the terms of G) and `paths` (places of the map,
+    the present one first, -1 from where nothing is imagined) have an entry a policy, the least G first. `mean` has
+    the terms of all that were considered, on average.
     """
     cost, terms = plan.expected_free_energy.G, plan.expected_free_energy
     best = _best(plan, cost)
-    every = np.stack([getattr(terms, name) for name in TERMS], axis=1)
+    every = terms.values.T
     return {
         "considered": len(plan.policies),
         "cut": int(plan.cut),
@@ -56,12 +51,12 @@ def _best(plan: Plan, cost: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray
 
 def _paths(plan: Plan, best: np.ndarray[Any, np.dtype[np.int64]]) -> np.ndarray[Any, np.dtype[np.int64]]:
     """`[n, L + 1]` the most probable places along each policy, from the most probable one now."""
-    reach = plan.reach
-    likely = reach.B.argmax(axis=0)
+    model = plan.model
+    likely = model.B.argmax(axis=0)
     actions = plan.policies[best]
-    here = np.full(len(best), int(reach.belief.argmax()))
+    here = np.full(len(best), int(model.belief.argmax()))
     paths = [here]
     for column in actions.T:
         here = likely[here, column]
         paths.append(here)
-    return reach.places[np.stack(paths, axis=1)]
+    return model.places[np.stack(paths, axis=1)]

@@ -5,17 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..model import FactorGraph
-from ..model import CognitiveMap
-from ..model.labels import encode
-from ..model.slices import Slice, window_graph
+from ..inference import infer
+from ..model import CognitiveMap, FactorGraph, Slice, encode, window_graph
 
 DIGITS = 4
 
-Floats = NDArray[np.float64]
 Window = Sequence[Slice]
 
 
@@ -62,50 +56,11 @@ def _factors(graph: FactorGraph, told: set[str]) -> list[list[Any]]:
 
 def _tops(map_: CognitiveMap, window: Window) -> dict[str, list[Any]]:
     """The most probable label of every latent variable, and its probability."""
-    tops: dict[str, list[Any]] = {}
-    for slice_, (joint, moved) in zip(window, smoothed(window), strict=True):
-        places, positions = joint.sum(axis=1), joint.sum(axis=0)
-        s, p = int(places.argmax()), int(positions.argmax())
-        position = map_.positions[int(slice_.positions[p])]
-        tops[f"s{slice_.step}"] = [int(slice_.places[s]), round(float(places[s]), DIGITS)]
-        tops[f"p{slice_.step}"] = [encode(position), round(float(positions[p]), DIGITS)]
-        if slice_ is not window[0]:
-            tops[f"moved{slice_.step}"] = [moved >= 0.5, round(max(moved, 1.0 - moved), DIGITS)]
+    graph = window_graph(map_, window)
+    posterior, tops = infer(graph), dict[str, list[Any]]()
+    for variable in graph.variables:
+        if not variable.observed:
+            q = posterior.marginal(variable.name)
+            best = int(q.argmax())
+            tops[variable.name] = [encode(variable.domain[best]), round(float(q[best]), DIGITS)]
     return tops
-
-
-def smoothed(window: Window) -> list[tuple[Floats, float]]:
-    """Q(s_t, p_t) `[n, m]` and P(moved_t) for each slice, given all of the window.
-
-    Sum-product there and back along the factors of `window_graph`, the same posterior as `infer` gives of it, without
-    building the graph: a recording asks for it at every step.
-    """
-    forward = [window[0].joint / window[0].joint.sum()]
-    for slice_ in window[1:]:
-        message = _local(slice_) * _ahead(slice_, forward[-1])
-        forward.append(message / message.sum())
-    results: list[tuple[Floats, float]] = []
-    back = np.ones_like(forward[-1])
-    for slice_, here, before in zip(window[:0:-1], forward[:0:-1], forward[-2::-1], strict=True):
-        joint = here * back
-        into = _local(slice_) * back
-        stays = slice_.displacement[0] * (slice_.transition.T @ into @ slice_.motion)
-        moves = slice_.displacement[1] * float((slice_.arrival[:, None] * into).sum())
-        moved = moves / (float((before * stays).sum()) + moves)
-        results.append((joint / joint.sum(), moved))
-        back = stays + moves
-        back /= back.max()
-    joint = forward[0] * back
-    results.append((joint / joint.sum(), 0.0))
-    return results[::-1]
-
-
-def _local(slice_: Slice) -> Floats:
-    """`[n, m]` the factors on s_t and p_t alone."""
-    return slice_.place.T * (slice_.sight_likelihood * slice_.doors_likelihood)[:, None]
-
-
-def _ahead(slice_: Slice, before: Floats) -> Floats:
-    """`[n, m]` what the step before predicts, `before` being its message of mass one."""
-    stays = slice_.transition @ before @ slice_.motion.T
-    return slice_.displacement[0] * stays + slice_.displacement[1] * slice_.arrival[:, None]

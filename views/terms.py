@@ -1,36 +1,21 @@
-"""The terms of expected free energy: what each is called, its sign in G, and how it is drawn."""
+"""How the terms of expected free energy are drawn, whichever they are."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from ..planning import Term
+from .colours import RGB
 
-from .colours import BLUE, GREEN, ORANGE, PURPLE, RGB, SKY, VERMILION
-
-
-@dataclass(frozen=True, slots=True)
-class Term:
-    """One term.
-
-    Attributes:
-        name: in legends.
-        sign: with which it goes into G.
-        colour: of lines and bars.
-        style: of lines.
-        hatch: of bars.
-    """
-
-    name: str
-    sign: float
-    colour: RGB
-    style: str | tuple[int, tuple[int, ...]]
-    hatch: str
+STYLES: tuple[str | tuple[int, tuple[int, ...]], ...] = ("--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)))
+HATCHES = ("", "", "...", "///", "\\\\\\", "xxx")
+"""Of lines and of bars, by the place of a term in its list."""
 
 
-TERMS = {
-    "state_information": Term("−state information", -1.0, BLUE, "--", ""),
-    "sight_information": Term("−sight information", -1.0, ORANGE, "-.", ""),
-    "transition_information": Term("−transition information", -1.0, GREEN, (0, (5, 1)), "///"),
-    "position_information": Term("−position information", -1.0, PURPLE, ":", "..."),
-    "utility": Term("−utility", -1.0, SKY, (0, (3, 1, 1, 1)), "\\\\\\"),
-    "collision": Term("collision", 1.0, VERMILION, (0, (1, 1)), "xxx"),
-}
+def signed_label(term: Term) -> str:
+    """What the curve of a term is called, with the sign it has in G."""
+    return term.label if term.sign > 0.0 else f"−{term.label}"
+
+
+def colour_of(term: Term) -> RGB:
+    """Red, green and blue of its colour."""
+    red, green, blue = (int(term.colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return red, green, blue

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import groupby
+from itertools import cycle, groupby
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..model.errors import CogmapError
 from ..planning import Plan
 from .axes import axes_or_new, legend_below
-from .terms import TERMS
+from .terms import HATCHES, colour_of, signed_label
 from .theme import Theme, theme_of
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ def best_policies(plan: Plan, most: int) -> list[int]:
 
 def policy_name(plan: Plan, policy: int) -> str:
     """The actions in order, repeats counted, such as "3 up, left"."""
-    names = [plan.reach.motions.names[action] for action in plan.policies[policy].tolist()]
+    names = [plan.model.motions.names[action] for action in plan.policies[policy].tolist()]
     runs = [(name, len(list(group))) for name, group in groupby(names)]
     text = ", ".join(name if count == 1 else f"{count} {name}" for name, count in runs)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
@@ -74,14 +73,14 @@ def _draw_terms(ax: Axes, plan: Plan, shown: Sequence[int], theme: Theme) -> Non
     """Bars one beside the other from zero: to the left what lowers G, to the right what raises it."""
     rows = np.arange(len(shown))
     ends = {-1.0: np.zeros(len(shown)), 1.0: np.zeros(len(shown))}
-    for key, term in TERMS.items():
-        every: NDArray[np.float64] = getattr(plan.expected_free_energy, key)
-        values = term.sign * every[shown]
+    energy = plan.expected_free_energy
+    for term, hatch in zip(energy.terms, cycle(HATCHES)):
+        values = term.sign * energy[term.name][shown]
         if np.abs(values).max() <= NOTHING:
             continue
         left = np.where(values < 0.0, ends[-1.0], ends[1.0])
-        look: dict[str, Any] = {"color": term.colour, "hatch": term.hatch, "edgecolor": theme.paper, "linewidth": 0.6}
-        ax.barh(rows, values, left=left, height=0.7, label=term.name, **look)
+        look: dict[str, Any] = {"color": colour_of(term), "hatch": hatch, "edgecolor": theme.paper, "linewidth": 0.6}
+        ax.barh(rows, values, left=left, height=0.7, label=signed_label(term), **look)
         ends[-1.0] += np.minimum(values, 0.0)
         ends[1.0] += np.maximum(values, 0.0)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .base import PlaceEnv
+from .behaviour import behaviour, distinguishable
 from .builtin import MAZES
 from .drawing import draw, label_colour
 from .environment import MazeEnv
@@ -10,11 +11,13 @@ from .errors import WorldError
 from .generate import comb, hall, random_maze, rings, spiral
 from .graph import POSES, GraphWorld, Layout, read_graph
 from .labyrinth import labyrinth
-from .load import load_world, register_worlds
+from .load import load_world, register_worlds, world_of
 from .maze import Door, Label, Maze, Position
 from .motions import GRID, Motions
-from .oracle import covering_steps, covering_walk, shortest_path
+from .noise import NOISES, NoisyWorld
+from .oracle import MOST_EXACT, MOST_TOUR, MOST_WALKED, covering_steps, covering_walk, frontier_walk, tour
 from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place, World, offered, place_of
+from .routes import shortest_path, walk_length
 from .text import format_maze, parse_maze
 from .text_styles import FORMATS, read_maze
 
@@ -22,6 +25,10 @@ __all__ = [
     "FORMATS",
     "GRID",
     "MAZES",
+    "MOST_EXACT",
+    "MOST_TOUR",
+    "MOST_WALKED",
+    "NOISES",
     "POSES",
     "CanClose",
     "CanDisplace",
@@ -34,17 +41,21 @@ __all__ = [
     "Maze",
     "MazeEnv",
     "Motions",
+    "NoisyWorld",
     "Observation",
     "Place",
     "PlaceEnv",
     "Position",
     "World",
     "WorldError",
+    "behaviour",
     "comb",
     "covering_steps",
     "covering_walk",
+    "distinguishable",
     "draw",
     "format_maze",
+    "frontier_walk",
     "hall",
     "label_colour",
     "labyrinth",
@@ -59,6 +70,9 @@ __all__ = [
     "rings",
     "shortest_path",
     "spiral",
+    "tour",
+    "walk_length",
+    "world_of",
 ]
 
 register_worlds()

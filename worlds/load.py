@@ -11,7 +11,9 @@ from .base import PlaceEnv
 from .builtin import MAZES
 from .environment import MazeEnv
 from .errors import WorldError
-from .graph import GraphWorld, is_graph_file, read_graph
+from .graph import GraphWorld, Layout, is_graph_file, read_graph
+from .maze import Maze
+from .protocol import Chart
 from .sights import Sights
 from .text_styles import read_maze
 
@@ -55,6 +57,19 @@ def load_world(
         return GraphWorld(read_graph(name_or_path, **options))
     drawn = "distinct" if sights is None else sights
     return MazeEnv(read_maze(name_or_path, format=format, sights=drawn, seed=seed), render_mode=render_mode)
+
+
+def world_of(chart: Chart) -> PlaceEnv:
+    """A world whose true map is `chart`.
+
+    Raises:
+        WorldError: neither a `Maze` nor a `Layout`.
+    """
+    if isinstance(chart, Maze):
+        return MazeEnv(chart)
+    if isinstance(chart, Layout):
+        return GraphWorld(chart)
+    raise WorldError(f"no world can be made of a {type(chart).__name__}; give a Maze or the Layout of a graph")
 
 
 def register_worlds() -> None:

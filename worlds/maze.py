@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from .errors import WorldError
-from .motions import GRID
+from .motions import GRID, Motions
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -60,6 +60,11 @@ class Maze:
         return Maze, (self.name, dict(self.sights), self.walls)
 
     @property
+    def motions(self) -> Motions:
+        """The actions of an agent there: `GRID`."""
+        return GRID
+
+    @property
     def places(self) -> tuple[Position, ...]:
         """The rooms, as charts call them."""
         return self.rooms
@@ -107,6 +112,10 @@ class Maze:
         """
         return {name: place if room is None else room for name, room in self.exits(place).items()}
 
+    def length(self, place: Position, way: str) -> float:
+        """1 of a way to another room, 0 of any other action."""
+        return float(self.exits(place)[way] not in (None, place))
+
     def walled(self, a: Position, b: Position) -> bool:
         """Whether a wall stands between rooms `a` and `b`, which lie side by side."""
         return bool(self.walls) and ((a, b) if a < b else (b, a)) in self.walls
@@ -152,7 +161,7 @@ class UnreachableError(WorldError):
         self.where, self.rooms = where, rooms
 
     def __str__(self) -> str:
-        return f"{self.where}: {name_rooms(self.rooms)} cannot be reached from the rest; join or remove them"
+        return f"{self.where}: {_name_rooms(self.rooms)} cannot be reached from the rest; join or remove them"
 
 
 def _unreachable(rooms: tuple[Position, ...], walls: frozenset[Door]) -> tuple[Position, ...]:
@@ -163,7 +172,7 @@ def _unreachable(rooms: tuple[Position, ...], walls: frozenset[Door]) -> tuple[P
     return tuple(sorted(room for part in parts[1:] for room in part))
 
 
-def name_rooms(rooms: tuple[Position, ...], *, most: int = 8) -> str:
+def _name_rooms(rooms: tuple[Position, ...], *, most: int = 8) -> str:
     """'room (0, 1)' or 'rooms (0, 1), (0, 2), ... and 3 more', for messages."""
     named = ", ".join(str(room) for room in rooms[:most])
     more = f" and {len(rooms) - most} more" if len(rooms) > most else ""

@@ -52,6 +52,11 @@ class Chart(Protocol):
         ...
 
     @property
+    def motions(self) -> Motions:
+        """The actions of an agent there."""
+        ...
+
+    @property
     def sights(self) -> Mapping[Any, Any]:
         """The label of each place; a tuple of labels where there are several sensors."""
         ...
@@ -81,6 +86,10 @@ class Chart(Protocol):
         Raises:
             WorldError: there is no such place.
         """
+        ...
+
+    def length(self, place: Place, way: Any) -> float | None:
+        """How long a way is; None where nobody knows."""
         ...
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from .base import Context, ModelFactor, Support, Table
+from .base import Context, ModelFactor, Successors, Support, Table
 from .displacement import Displacement
 from .pose import POSES, Ahead, Lattice, NoPose, Pose
 from .sensor import Sensor
 from .sight import Sight
-from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Successors, Transition
+from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 from .ways import Ways
 
 SENSORS: dict[str, type[Sensor]] = {"sight": Sight, "ways": Ways}

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..changes import Changes, Store
+from ..errors import CogmapError
 from ..growth_event import GrowthEvent
 from ..motions import Motions
 from ..percept import Percept
@@ -49,6 +50,25 @@ class Context:
 
 
 @dataclass(frozen=True, slots=True)
+class Successors:
+    """Where an action may have led from each of `n` places, `[n, slots]`.
+
+    Attributes:
+        places: s'; negative where a slot is unused, or leads out of the map.
+        probability: B_s[a](s', s).
+        coupling: what the factors of this step are multiplied by besides, given what is sensed now.
+    """
+
+    places: Ints
+    probability: Floats
+    coupling: Floats
+
+    def of(self, rows: Ints) -> Successors:
+        """Those of some of the places."""
+        return Successors(self.places[rows], self.probability[rows], self.coupling[rows])
+
+
+@dataclass(frozen=True, slots=True)
 class Support:
     """What the factors of one time step are tabulated over: the places and positions that hold mass.
 
@@ -59,9 +79,9 @@ class Support:
         positions: `[m]` domain of p_t.
         before: the domains of s_t-1 `[n']` and p_t-1 `[m']`; None where the window begins.
         log_likelihoods: by name of the sensor, `[n]` log P(reading | s_t).
-        stays: probability that the pose stays as it is under the action.
         arrival: `[n]` P(s_t | moved_t); None in a model without displacement.
         examined: whether the filter looked at displacement at all.
+        ahead: where the action may have led from each of the places before, as the filter had it.
     """
 
     step: int
@@ -70,17 +90,14 @@ class Support:
     positions: Ints
     before: tuple[Ints, Ints] | None
     log_likelihoods: Mapping[str, Floats]
-    stays: float
     arrival: Floats | None
     examined: bool
+    ahead: Successors | None
 
-    def scope(self, name: str) -> list[str]:
+    def scope(self, name: str) -> tuple[str, ...]:
         """`name` at t and at t-1, and whether the agent was moved in between where the model has that."""
-        return [
-            f"{name}{self.step}",
-            f"{name}{self.step - 1}",
-            *([] if self.arrival is None else [f"moved{self.step}"]),
-        ]
+        now, before = f"{name}{self.step}", f"{name}{self.step - 1}"
+        return (now, before) if self.arrival is None else (now, before, f"moved{self.step}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +107,7 @@ class Table:
     Attributes:
         name: its symbol.
         scope: names of its variables, one an axis.
-        values: the factor itself.
+        values: the factor itself, or what works it out when it is asked for; must not read what may change.
         kind: `sight`, `walls`, `transition`, …, as in `Factor`.
         equation: what it says.
         observed: label of the first variable of its scope, if that is observed.
@@ -98,10 +115,15 @@ class Table:
 
     name: str
     scope: tuple[str, ...]
-    values: Floats
+    values: Floats | Callable[[], Floats]
     kind: str
     equation: str
-    observed: tuple[Hashable, ...] = field(default=())
+    observed: tuple[Hashable, ...] = ()
+
+    @property
+    def array(self) -> Floats:
+        """The factor itself."""
+        return self.values() if callable(self.values) else self.values
 
 
 class ModelFactor:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -91,7 +92,8 @@ class Sensor(ModelFactor):
         if self.name in support.log_likelihoods:
             reading = support.percept.readings[self.name]
             o, s = f"{self.variable}{support.step}", f"s{support.step}"
-            values, equation = np.exp(support.log_likelihoods[self.name])[None], f"P({self.variable}_t | s_t)"
+            values = partial(_likelihood, support.log_likelihoods[self.name])
+            equation = f"P({self.variable}_t | s_t)"
             yield Table(self.symbol, (o, s), values, self.kind, equation, observed=(self.label(reading),))
 
     # -- learning ------------------------------------------------------------------------------------------
@@ -109,3 +111,7 @@ class Sensor(ModelFactor):
     def information_unseen(self, steps: int) -> Floats:
         """`[N + 1]` the same in a place that was never imagined."""
         return np.zeros(steps + 1)
+
+
+def _likelihood(log_likelihood: Floats) -> Floats:
+    return np.exp(log_likelihood)[None]

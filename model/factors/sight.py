@@ -88,7 +88,8 @@ class Sight(Sensor):
             hash(label)
         except TypeError as error:
             raise CogmapError(
-                f"observation: {self.name} is a {type(value).__name__}, not hashable; label sights with str, int or tuple"
+                f"observation: {self.name} is a {type(value).__name__}, not hashable; "
+                "label sights with str, int or tuple"
             ) from error
         if label != label:  # a NaN would be a new sight each time
             raise CogmapError(f"observation: {self.name} is NaN, which equals nothing; label with str, int or tuple")
@@ -117,7 +118,7 @@ class Sight(Sensor):
         return -float(np.log(self.table.outcomes))
 
     def candidates(self, reading: int) -> tuple[Ints, float]:
-        """The visited places that have counts for the label, or hardly any, and a bound on its probability elsewhere."""
+        """The visited places that have counts for it, or hardly any, and a bound on its probability elsewhere."""
         return self._index.places(reading)
 
     def learn(self, place: int, reading: int, weight: float) -> None:

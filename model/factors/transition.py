@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,28 +14,13 @@ from ..column import Column
 from ..dirichlet import EMPTY, SparseDirichlet, parts_of
 from ..information import information
 from ..percept import Percept
-from .base import Context, Floats, Ints, ModelFactor, Support, Table
+from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table
 
 ELSEWHERE = -1
 """Successor that is no place of the map yet."""
 
 UNKNOWN, OPEN, BLOCKED = 0, 1, 2
 """What was last sensed of a door."""
-
-
-@dataclass(frozen=True, slots=True)
-class Successors:
-    """Where an action may have led from each of `n` places, `[n, slots]`.
-
-    Attributes:
-        places: s'; negative where a slot is unused, or leads out of the map.
-        probability: B_s[a](s', s).
-        coupling: what the factors of this step are multiplied by besides, given what is sensed now.
-    """
-
-    places: Ints
-    probability: Floats
-    coupling: Floats
 
 
 class Transition(ModelFactor):
@@ -134,24 +119,22 @@ class Transition(ModelFactor):
         A look teaches nothing where a visit has shown all it can, and no place lies beyond.
         """
         keys, alpha, _ = self.table.concentration(self.rows(places))
-        keys, alpha = (part.reshape(len(places), len(self.motions), -1) for part in (keys, alpha))
+        shape = len(places), len(self.motions), -1
+        keys, alpha = keys.reshape(shape), alpha.reshape(shape)
         visited: NDArray[np.bool_] = self.context.visits.visited.values[places]
         shown = visited[:, None] & (keys == ELSEWHERE).any(axis=2)
         return (information(alpha, steps) * ~shown[..., None]).sum(axis=1)
 
     def tables(self, support: Support) -> Iterable[Table]:
         """B_s[a](s_t, s_t-1), times the coupling; any visited place where the agent was moved."""
-        if support.before is None or support.percept.action is None:
+        if support.ahead is None or support.percept.action is None:
             return
-        action, places = support.percept.action, support.before[0]
-        ahead = self.predict(places, action, support.percept, stays=support.stays)
-        here = ahead.places == support.places[:, None, None]
-        values = np.einsum("jk,ijk->ij", ahead.probability * ahead.coupling, here)
-        if support.arrival is not None:
-            values = np.stack([values, np.broadcast_to(support.arrival[:, None], values.shape)], axis=-1)
-        name = f"B_s[{self.motions.names[action]}]"
-        equation = "P(s_t | s_t-1, a_t-1" + (")" if support.arrival is None else ", moved_t)")
-        yield Table(name, tuple(support.scope("s")), values, "transition", equation)
+        name, given = (
+            f"B_s[{self.motions.names[support.percept.action]}]",
+            "" if support.arrival is None else ", moved_t",
+        )
+        values = partial(_values, support.ahead, support.places, support.arrival)
+        yield Table(name, support.scope("s"), values, "transition", f"P(s_t | s_t-1, a_t-1{given})")
 
     # -- learning ------------------------------------------------------------------------------------------
 
@@ -198,3 +181,12 @@ class Transition(ModelFactor):
     def forget(self, keep: float) -> None:
         """Let all evidence fade by the factor `keep`."""
         self.table.fade(keep)
+
+
+def _values(ahead: Successors, places: Ints, arrival: Floats | None) -> Floats:
+    """`[n, n']`, or `[n, n', 2]` where the agent may have been moved."""
+    here = ahead.places == places[:, None, None]
+    values = np.einsum("jk,ijk->ij", ahead.probability * ahead.coupling, here)
+    if arrival is None:
+        return values
+    return np.stack([values, np.broadcast_to(arrival[:, None], values.shape)], axis=-1)

@@ -3,28 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from dataclasses import dataclass
+from typing import Any
 
 from ..generative import GenerativeModel
 
 
-class Whereabouts(Protocol):
-    """What is believed of where the agent is, such as `Belief`."""
+@dataclass(frozen=True, slots=True)
+class Whereabouts:
+    """What is believed of where the agent is.
+
+    Attributes:
+        places: Q(s_t) of the places that hold mass, the most probable first.
+    """
+
+    places: Mapping[int, float]
 
     @property
     def place(self) -> int:
         """The most probable place."""
-        ...
+        return next(iter(self.places))
 
     @property
     def certainty(self) -> float:
         """Q of the most probable place."""
-        ...
-
-    @property
-    def places(self) -> Mapping[int, float]:
-        """Q(s_t) of the places that hold mass, the most probable first."""
-        ...
+        return next(iter(self.places.values()))
 
 
 class Growth:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 
+from ...dirichlet import SparseDirichlet
 from ...domain import Domain
 from ...motions import Position
 from ..base import Floats, Ints, ModelFactor
@@ -19,10 +20,12 @@ class Pose(ModelFactor):
 
     Attributes:
         positions: their labels.
+        table: counts of P(p | s), a row a place.
     """
 
     name = "pose"
     positions: Domain
+    table: SparseDirichlet
 
     @property
     def origin(self) -> Position | None:

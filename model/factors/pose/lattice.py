@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any, cast
 
 import numpy as np
@@ -130,15 +131,12 @@ class Lattice(Pose):
         """B_p[a](p_t, p_t-1), anything where the agent was moved; and A_p(p_t, s_t)."""
         poses, t = support.positions, support.step
         if support.before is not None and support.percept.action is not None:
-            action, before = support.percept.action, support.before[1]
-            alternatives = self.predict(before, action, opened=support.percept.opened)
-            values = sum((p * (poses[:, None] == ahead[None]) for ahead, p in alternatives), np.zeros(()))
-            if support.arrival is not None:
-                values = np.stack([values, np.ones_like(values)], axis=-1)
+            action = support.percept.action
+            ahead = self.predict(support.before[1], action, opened=support.percept.opened)
             name, given = f"B_p[{self.motions.names[action]}]", "" if support.arrival is None else ", moved_t"
-            yield Table(name, tuple(support.scope("p")), values, "motion", f"P(p_t | p_t-1, a_t-1{given})")
-        keys, p = self.spread(support.places)
-        values = np.einsum("jk,ijk->ij", p, keys == poses[:, None, None])
+            values = partial(_motion, ahead, poses, moved=support.arrival is not None)
+            yield Table(name, support.scope("p"), values, "motion", f"P(p_t | p_t-1, a_t-1{given})")
+        values = partial(_places, *self.spread(support.places), poses)
         yield Table("A_p", (f"p{t}", f"s{t}"), values, "place", "P(p_t | s_t)")
 
     # -- growing and learning ------------------------------------------------------------------------------
@@ -191,3 +189,14 @@ class Lattice(Pose):
     def learn(self, place: int, weight: float) -> None:
         """The count of its position gains `weight` times the rate."""
         self.table.add(place, int(self.position_of.values[place]), weight * self.context.rates.likelihood)
+
+
+def _motion(ahead: Ahead, poses: Ints, *, moved: bool) -> Floats:
+    """`[m, m']` P(p_t | p_t-1, a), or `[m, m', 2]`: anything where the agent was moved."""
+    values = sum((p * (poses[:, None] == there[None]) for there, p in ahead), np.zeros(()))
+    return np.stack([values, np.ones_like(values)], axis=-1) if moved else values
+
+
+def _places(keys: Ints, p: Floats, poses: Ints) -> Floats:
+    """`[m, n]` P(p_t | s_t)."""
+    return np.einsum("jk,ijk->ij", p, keys == poses[:, None, None])

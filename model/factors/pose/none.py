@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Mapping
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from ...dirichlet import SparseDirichlet
 from ...domain import Domain
 from ...motions import Position
 from ..base import Context, Floats, Ints
@@ -17,6 +22,15 @@ class NoPose(Pose):
         """Make it part of a model."""
         super().attach(context)
         self.positions = Domain("positions")
+        self.table = SparseDirichlet(name="A_p", slots=1)
+
+    def grow(self, places: int) -> None:
+        """No counts at all."""
+        self.table.resize(places)
+
+    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
+        """Nothing but how many places there are."""
+        self.grow(places)
 
     def of(self, places: Ints) -> Ints:
         """`[n]` zeros."""

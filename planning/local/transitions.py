@@ -7,7 +7,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+from ...model import CogmapError
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -25,6 +27,23 @@ class Transitions:
 
     successors: Ints
     probability: Floats
+
+    @classmethod
+    def of(cls, dense: ArrayLike) -> Transitions:
+        """Those of a dense table `[R, R, K]`, B[s', s, a]."""
+        B = np.asarray(dense, dtype=np.float64).transpose(1, 2, 0)
+        slots = max(1, int((B > 0.0).sum(axis=2).max(initial=0)))
+        successors = np.argsort(-B, axis=2, kind="stable")[:, :, :slots]
+        return cls(successors, np.take_along_axis(B, successors, axis=2))
+
+    def check(self) -> None:
+        """Raise `CogmapError` unless both arrays fit together."""
+        if self.successors.ndim != 3 or self.successors.shape != self.probability.shape:
+            raise CogmapError(
+                "local model: B has successors and probability of different shapes; give [R, K, n] of both"
+            )
+        if self.successors.min() < 0 or self.successors.max() >= len(self.successors):
+            raise CogmapError("local model: B leads out of the places; its successors are places counted from 0")
 
     @property
     def shape(self) -> tuple[int, int, int]:

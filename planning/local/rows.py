@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
-Rows = tuple[NDArray[Any], ...]
+Columns = tuple[NDArray[Any], ...]
 
 
-class Kept:
+class Rows:
     """Rows of several arrays, by number, kept from the first time that they are asked for until they are forgotten.
 
     Args:
@@ -21,7 +21,7 @@ class Kept:
 
     __slots__ = ("_columns", "_compute", "_known")
 
-    def __init__(self, compute: Callable[[Ints], Rows]) -> None:
+    def __init__(self, compute: Callable[[Ints], Columns]) -> None:
         self._compute = compute
         self._known = np.zeros(0, dtype=np.bool_)
         self._columns: list[NDArray[Any]] = []
@@ -35,15 +35,10 @@ class Kept:
             if row < len(self._known):
                 self._known[row] = False
 
-    def rows(self, wanted: Ints) -> Rows:
-        """The rows of these numbers, copied."""
+    def columns(self, wanted: Ints, *which: int) -> Columns:
+        """The rows of these numbers, copied, of some of the arrays."""
         self._know(wanted)
-        return tuple(column[wanted] for column in self._columns)
-
-    def row_of(self, column: int, wanted: Ints) -> NDArray[Any]:
-        """The rows of one of the arrays alone."""
-        self._know(wanted)
-        return self._columns[column][wanted]
+        return tuple(self._columns[column][wanted] for column in which)
 
     def _know(self, wanted: Ints) -> None:
         if len(wanted) and (most := int(wanted.max())) >= len(self._known):

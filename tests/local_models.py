@@ -1,4 +1,4 @@
-"""Reach objects for the planning tests: random tables, and grids partly visited."""
+"""Local models for the planning tests: random tables, and grids partly visited."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections.abc import Iterable
 
 import numpy as np
 from cogmap.model.motions import Motions
-from cogmap.planning import Reach, dirichlet_information
+from cogmap.planning import LocalModel, Transitions, dirichlet_information
 
 GRID = Motions(("up", "down", "left", "right", "stay"), ((-1, 0), (1, 0), (0, -1), (0, 1), (0, 0)))
 LINE = Motions(("back", "on", "stay"), ((-1,), (1,), (0,)))
 
 
-def random_reach(
+def random_model(
     seed: int,
     *,
     motions: Motions = GRID,
@@ -20,7 +20,7 @@ def random_reach(
     sights: int = 4,
     look_ahead: int = 3,
     sparse: bool = False,
-) -> Reach:
+) -> LocalModel:
     """Nothing but the shapes and the sums is as in a map; `sparse` makes B and the belief one-hot."""
     rng = np.random.default_rng(seed)
     kinds, steps = len(motions), look_ahead + int(rng.integers(0, 3))
@@ -34,9 +34,9 @@ def random_reach(
         B = np.moveaxis(rng.dirichlet(np.full(places, 0.3), (places, kinds)), -1, 0)
         belief = rng.dirichlet(np.full(places, 0.5))
         A = rng.dirichlet(np.full(sights, 0.5), places).T
-    collision = rng.random((places, kinds))
-    collision[:, motions.stay] = 0.0
-    return Reach(
+    blocked = rng.random((places, kinds))
+    blocked[:, motions.stay] = 0.0
+    return LocalModel(
         motions=motions,
         look_ahead=look_ahead,
         places=np.arange(places) + 7,
@@ -45,21 +45,25 @@ def random_reach(
         multiplicity=np.where(rng.random(sights) < 0.5, 1.0, rng.integers(1, 2000, sights)),
         log_C=rng.normal(size=sights) * rng.choice([0.0, 3.0]),
         log_C_place=rng.normal(size=places) * rng.choice([0.0, 2.0]),
-        B=B,
-        collision=collision,
+        B=Transitions.of(B),
+        blocked=blocked,
         collision_cost=float(rng.random() * 5),
-        sight_information=dirichlet_information(rng.random((places, 4)) + 1e-3, steps),
-        position_information=dirichlet_information(rng.random((places, 3)) + 1e-3, steps),
-        transition_information=dirichlet_information(rng.random((places, kinds, 3)) + 1e-3, steps).sum(axis=1),
+        information={
+            "sight": dirichlet_information(rng.random((places, 4)) + 1e-3, steps),
+            "position": dirichlet_information(rng.random((places, 3)) + 1e-3, steps),
+            "transition": dirichlet_information(rng.random((places, kinds, 3)) + 1e-3, steps).sum(axis=1),
+        },
         successor=rng.integers(-1, places, (places, kinds)),
-        promise=rng.random(places) * (rng.random(places) < 0.6),
-        frontier=np.where(rng.random(places) < 0.4, rng.random(places), -1.0),
+        entered=rng.random(places) < 0.6,
+        position=np.where(
+            rng.random((places, 1)) < 0.8, rng.normal(size=(places, len(motions.displacements[0]))), np.nan
+        ),
         discount=float(rng.choice([1.0, 0.9])),
         information_weight=float(rng.choice([0.0, 1.0, 2.5])),
     )
 
 
-def grid_reach(
+def grid_model(
     rooms: Iterable[tuple[int, int]],
     *,
     visited: Iterable[tuple[int, int]],
@@ -67,13 +71,13 @@ def grid_reach(
     look_ahead: int = 6,
     closed: Iterable[tuple[tuple[int, int], tuple[int, int]]] = (),
     goal: tuple[int, int] | None = None,
-) -> Reach:
+) -> LocalModel:
     """A map of grid rooms: visited ones have a sight of their own, others any of 1000; known ways are open."""
     rooms, visited = list(rooms), set(visited)
     index = {room: i for i, room in enumerate(rooms)}
     shut = {frozenset(pair) for pair in closed}
     R, K = len(rooms), len(GRID)
-    successor, collision = np.full((R, K), -1), np.zeros((R, K))
+    successor, blocked = np.full((R, K), -1), np.zeros((R, K))
     B = np.full((R, R, K), 1e-3)
     for room, i in index.items():
         for a in range(K):
@@ -81,9 +85,9 @@ def grid_reach(
             known = to in index and frozenset((room, to)) not in shut and (room in visited or to in visited)
             if known:
                 successor[i, a] = index[to]
-            collision[i, a] = 0.05 if known else 0.95 if room in visited else 0.5
+            blocked[i, a] = 0.05 if known else 0.95 if room in visited else 0.5
             B[index[to] if known else i, i, a] += 1.0
-    collision[:, GRID.stay] = 0.0
+    blocked[:, GRID.stay] = 0.0
     A = np.full((R + 1, R), 1e-4)
     alpha = np.full((R, 2), [1.0, 1e-3])
     for room, i in index.items():
@@ -94,7 +98,7 @@ def grid_reach(
     log_C = np.zeros(R + 1)
     if goal is not None:
         log_C[index[goal]] = 3.0
-    return Reach(
+    return LocalModel(
         motions=GRID,
         look_ahead=look_ahead,
         places=np.arange(R),
@@ -103,13 +107,15 @@ def grid_reach(
         multiplicity=np.append(np.ones(R), 1000.0),
         log_C=log_C,
         log_C_place=np.zeros(R),
-        B=B / B.sum(0),
-        collision=collision,
+        B=Transitions.of(B / B.sum(0)),
+        blocked=blocked,
         collision_cost=1.0,
-        sight_information=sight,
-        position_information=np.zeros((R, look + 1)),
-        transition_information=dirichlet_information(np.full((R, K, 2), [5.0, 0.1]), look).sum(axis=1),
+        information={
+            "sight": sight,
+            "position": np.zeros((R, look + 1)),
+            "transition": dirichlet_information(np.full((R, K, 2), [5.0, 0.1]), look).sum(axis=1),
+        },
         successor=successor,
-        promise=sight[:, 1] + np.array([3.0 if room == goal else 0.0 for room in rooms]),
-        frontier=np.array([-1.0 if room in visited else float(sum(x * x for x in room)) for room in rooms]),
+        entered=np.array([room in visited for room in rooms]),
+        position=np.array(rooms, dtype=np.float64),
     )

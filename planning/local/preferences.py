@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .reach import Floats, Ints
+from .transitions import Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,19 @@
+"""The local model of a plan: the tables of the map, cut to the places that policies can lead to, and their cache."""
+
+from .cache import LocalCache
+from .cut import Surroundings, local_model
+from .model import LocalModel
+from .preferences import Preferences
+from .transitions import Transitions
+from .view import MapView, Table
+
+__all__ = [
+    "LocalCache",
+    "LocalModel",
+    "MapView",
+    "Preferences",
+    "Surroundings",
+    "Table",
+    "Transitions",
+    "local_model",
+]
