@@ -25,7 +25,6 @@ from cogmap.agent import Agent, Settings
 from cogmap.inference.filter import FEW
 from cogmap.planning import Choice, LocalModel, MapGuided
 from cogmap.planning import planner as planner_module
-from cogmap.planning.prediction import predictor
 from cogmap.planning.prefixes import Prefixes, prefixes_of
 from cogmap.worlds import MazeEnv, labyrinth, load_world
 from known import known_agent
@@ -141,13 +140,12 @@ def causes(agent: Agent) -> list[float]:
 
 def visits_of(model: LocalModel, tree: Prefixes) -> int:
     """Pairs of a prefix and a place that it may have visited."""
-    predict = predictor(model.B)
     belief = np.zeros((len(tree), len(model.places)))
     visited = np.zeros(belief.shape, dtype=np.bool_)
     belief[0] = model.belief
     for above, begin, end in tree.levels:
         parent = tree.parent[begin:end]
-        belief[begin:end] = predict(belief[above:begin], parent - above, tree.action[begin:end])
+        belief[begin:end] = model.B.predicted(belief[above:begin], parent - above, tree.action[begin:end])
         visited[begin:end] = visited[parent] | (belief[begin:end] > 0.0)
     return int(visited.sum())
 

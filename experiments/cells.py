@@ -4,22 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import partial
+from hashlib import sha256
 from importlib.metadata import version
 from itertools import chain
 from typing import Any
 
 from ..agent import Settings
 from ..baselines import CscgSettings
-from ..model.errors import CogmapError
-from ..model.growth import GROWTHS
+from ..model import GROWTHS, CogmapError
 from ..worlds import Maze
-from .cell_row import Key, Row, layout_digest
-from .exploring import checked_steps, explore
+from .exploring import ExploreRun, explore
 from .ledger import Ledger
+from .parts import Parts
 from .pool import WorkerLostError, completed
-from .walkers import check_agent
+from .records import Record
+from .session import checked_steps
+
+Key = tuple[str, str, str, str, int]
+"""World, layout, agent, growth, seed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +46,30 @@ class Cell:
     def key(self) -> Key:
         """What tells it from other cells."""
         return self.maze.name, layout_digest(self.maze), self.agent, self.growth, self.seed
+
+
+@dataclass(frozen=True, slots=True)
+class Row(Record):
+    """One exploration that was made, as ledgers keep it. Rows are equal whatever seconds they took.
+
+    Attributes:
+        world: name of the maze.
+        layout: digest of rooms and sights, since two mazes may have one name.
+        agent: name of the agent.
+        growth: of the agent `cogmap`.
+        run: its figures.
+    """
+
+    world: str
+    layout: str = field(repr=False)
+    agent: str
+    growth: str
+    run: ExploreRun
+
+    @property
+    def key(self) -> Key:
+        """That of its cell."""
+        return self.world, self.layout, self.agent, self.growth, self.run.seed
 
 
 def run_cells(
@@ -67,9 +95,9 @@ def run_cells(
     Raises:
         CogmapError: a cell is bad or given twice, the ledger is of other settings, or a worker was killed.
     """
-    _check(cells, max_steps)
-    left = {cell.key: cell for cell in cells}
-    rows = [] if ledger is None else ledger.begin(Row.from_dict, **_made_with(settings, cscg, max_steps))
+    parts = Parts(settings=settings or Settings(), cscg=cscg or CscgSettings())
+    left = _checked(cells, max_steps)
+    rows = [] if ledger is None else ledger.begin(Row.from_dict, **_made_with(parts, max_steps))
     kept = [row for row in rows if left.pop(row.key, None) is not None]
     one = partial(run_cell, settings=settings, cscg=cscg, max_steps=max_steps)
     new = (row for _, row in completed(one, list(left.values()), executor=executor))
@@ -88,9 +116,15 @@ def run_cell(
     Raises:
         CogmapError: no such agent or growth, a negative seed, or `max_steps` below 1.
     """
-    own = replace(settings or Settings(), growth=cell.growth)
-    run = explore(cell.maze, agent=cell.agent, settings=own, cscg=cscg, seed=cell.seed, max_steps=max_steps)
-    return Row(cell.maze.name, cell.agent, cell.growth, run, layout_digest(cell.maze))
+    parts = Parts(cell.agent, settings or Settings(), cscg or CscgSettings()).growing(cell.growth)
+    run = explore(cell.maze, cell.seed, agent=parts, max_steps=max_steps)
+    return Row(cell.maze.name, layout_digest(cell.maze), cell.agent, cell.growth, run)
+
+
+def layout_digest(maze: Maze) -> str:
+    """Twelve hexadecimal digits that stand for the rooms and their sights."""
+    text = "\n".join(f"{row} {column} {maze.sights[row, column]!r}" for row, column in maze.rooms)
+    return sha256(text.encode()).hexdigest()[:12]
 
 
 def _keeping(rows: Iterator[Row], ledger: Ledger) -> Iterator[Row]:
@@ -104,26 +138,22 @@ def _keeping(rows: Iterator[Row], ledger: Ledger) -> Iterator[Row]:
         ) from error
 
 
-def _check(cells: Sequence[Cell], max_steps: int | None) -> None:
-    seen: set[Key] = set()
+def _checked(cells: Sequence[Cell], max_steps: int | None) -> dict[Key, Cell]:
+    checked: dict[Key, Cell] = {}
     for cell in cells:
-        check_agent(cell.agent)
+        Parts(cell.agent)  # refuses an unknown name
         checked_steps("cells", cell.maze, max_steps)
         if cell.growth not in GROWTHS:
             raise CogmapError(f"cells: no growth is called {cell.growth!r}; choose one of {', '.join(GROWTHS)}")
         if cell.seed < 0:
             raise CogmapError(f"cells: seed is {cell.seed}; use 0 or more")
-        if cell.key in seen:
+        if cell.key in checked:
             raise CogmapError(f"cells: {cell.maze.name}, {cell.agent}, seed {cell.seed} is given twice; leave one out")
-        seen.add(cell.key)
+        checked[cell.key] = cell
+    return checked
 
 
-def _made_with(settings: Settings | None, cscg: CscgSettings | None, max_steps: int | None) -> dict[str, Any]:
-    own = (settings or Settings()).to_dict()
+def _made_with(parts: Parts, max_steps: int | None) -> dict[str, Any]:
+    own = parts.settings.to_dict()
     del own["growth"]  # each row has its own
-    return {
-        "cogmap": version("cogmap"),
-        "settings": own,
-        "cscg": (cscg or CscgSettings()).to_dict(),
-        "max_steps": max_steps,
-    }
+    return {"cogmap": version("cogmap"), "settings": own, "cscg": parts.cscg.to_dict(), "max_steps": max_steps}

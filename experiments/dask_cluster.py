@@ -12,12 +12,11 @@ from functools import partial
 from importlib.metadata import version
 from typing import Any, ParamSpec, TypeVar
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 
-_PACKAGE = "cogmap"
 PATIENCE = 5.0
 """Seconds in which a scheduler must answer, and again in which a worker must be there."""
 
@@ -123,9 +122,9 @@ def _check_workers(client: Any, address: str) -> None:
         raise CogmapError(
             f"the Dask scheduler at {address} has no workers; start one: dask worker {address}"
         ) from error
-    own = _own_version()
+    own = version("cogmap")
     try:
-        found: dict[str, str] = client.run(version, _PACKAGE)
+        found: dict[str, str] = client.run(version, "cogmap")
     except ImportError as error:
         raise CogmapError(f"a Dask worker of {address} has no cogmap; install cogmap {own} there") from error
     for worker, other in found.items():
@@ -133,28 +132,21 @@ def _check_workers(client: Any, address: str) -> None:
             raise CogmapError(f"Dask worker {worker} has cogmap {other}, this is {own}; install the same version there")
 
 
-def _own_version() -> str:
-    return version(_PACKAGE)
-
-
 @contextmanager
 def _quiet() -> Generator[None]:
     """What goes wrong is said in one line by us, not in many by `distributed`."""
-    known = list(logging.root.manager.loggerDict.items())
-    loggers = [
-        logger
-        for name, logger in known
-        if name.split(".")[0] in ("distributed", "tornado", "asyncio") and isinstance(logger, logging.Logger)
+    names = [
+        name for name in logging.root.manager.loggerDict if name.split(".")[0] in ("distributed", "tornado", "asyncio")
     ]
-    levels = [logger.level for logger in loggers]
-    for logger in loggers:
+    levels = {logger: logger.level for logger in map(logging.getLogger, names)}
+    for logger in levels:
         logger.setLevel(logging.CRITICAL + 1)
     try:
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", module="distributed")
             yield
     finally:
-        for logger, level in zip(loggers, levels, strict=True):
+        for logger, level in levels.items():
             logger.setLevel(level)
 
 

@@ -12,7 +12,7 @@ from multiprocessing.context import SpawnContext, SpawnProcess
 from threading import Thread
 from typing import Any, ParamSpec, TypeVar
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
@@ -56,28 +56,28 @@ def workers(*, jobs: int = 1, dask: str | None = None) -> Generator[Executor | N
 @contextmanager
 def _processes(jobs: int) -> Generator[Executor]:
     """A pool that is ended at once, not after its last task, when something goes wrong."""
-    pool = _Processes(jobs)
+    context = _Spawning()
+    pool = _Processes(jobs, context, initializer=_end_with_parent)
     try:
         yield pool
     except BaseException:
         pool.shutdown(wait=False, cancel_futures=True)
-        pool.context.end()
+        context.end()
         raise
     finally:
         pool.shutdown()
 
 
 class _Spawning(SpawnContext):
-    """Remembers the processes that it starts."""
+    """Remembers the processes that it starts; spawned, since a progress bar has a thread, which survives no fork."""
 
     def __init__(self) -> None:
         super().__init__()
         self.started: list[SpawnProcess] = []
 
     def Process(self, *args: Any, **options: Any) -> SpawnProcess:  # type: ignore[override]
-        process = SpawnProcess(*args, **options)
-        self.started.append(process)
-        return process
+        self.started.append(SpawnProcess(*args, **options))
+        return self.started[-1]
 
     def end(self) -> None:
         """End them, whatever they do."""
@@ -89,39 +89,25 @@ class _Spawning(SpawnContext):
 
 
 class _Processes(ProcessPoolExecutor):
-    """Processes that never see Ctrl-C, and end with the one that started them, however that ends."""
-
-    def __init__(self, jobs: int) -> None:
-        # spawned, since a progress bar has a thread and threads do not survive a fork
-        self.context = _Spawning()
-        super().__init__(jobs, mp_context=self.context, initializer=_end_with_parent)
+    """Processes that never see Ctrl-C."""
 
     def submit(
         self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
     ) -> Future[Result]:
-        with _interrupts_blocked():  # processes start here, and inherit it
+        if not hasattr(signal, "pthread_sigmask"):
             return super().submit(fn, *args, **kwargs)
-
-
-@contextmanager
-def _interrupts_blocked() -> Generator[None]:
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # processes start here, and inherit it
+        try:
+            return super().submit(fn, *args, **kwargs)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
+    """In a process of the pool: end with the one that started it, however that ends."""
 
-    def watch() -> None:
-        assert parent is not None
+    def watch(parent: Any) -> None:
         parent.join()
         os._exit(1)
 
-    if parent is not None:
-        Thread(target=watch, daemon=True).start()
+    Thread(target=watch, args=[multiprocessing.parent_process()], daemon=True).start()

@@ -1,28 +1,25 @@
-"""Exploring a maze from a random room: how many steps until all of it is known?"""
+"""Exploring a world from a random place: how many steps until all of it is known?"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from functools import partial
 from time import perf_counter
-from typing import Any
+from typing import Any, Unpack
 
-import numpy as np
-
-from ..agent import Settings
-from ..baselines import CscgSettings
-from ..model.errors import CogmapError
-from ..worlds import Maze, MazeEnv, Position
-from .knowledge import Truth
+from ..worlds import Place
 from .oracle import frontier_steps, oracle_steps
-from .walkers import Seeker, Walker, check_agent, make_walker, sensed
-
-Watch = Callable[[Walker, MazeEnv, int], None]
-"""Called after every choice, before it is carried out, with the agent, the world, and the number of rooms entered."""
+from .pool import map_seeds
+from .records import OPTIONAL, Record
+from .running import Watch
+from .session import Options, World, chart_of, checked_steps, maker_in, set_out
+from .statistics import mean, ratio, std
 
 
 @dataclass(frozen=True, slots=True)
-class ExploreRun:
+class ExploreRun(Record):
     """One exploration. Steps are moves made when the condition first held; None where it never did.
 
     Attributes:
@@ -37,20 +34,13 @@ class ExploreRun:
     """
 
     seed: int
-    start: Position
+    start: Place
     steps_to_visit_all: int | None
     steps_to_learn: int | None
     steps_to_complete: int | None
     oracle_steps: int | None
     seconds: float = field(compare=False)
-    frontier_steps: int | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The run as plain JSON values."""
-        row = {**asdict(self), "start": list(self.start), "seconds": round(self.seconds, 4)}
-        if self.frontier_steps is None:
-            del row["frontier_steps"]
-        return row
+    frontier_steps: int | None = field(default=None, metadata=OPTIONAL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,8 +54,8 @@ class Walk:
     """
 
     run: ExploreRun
-    path: tuple[Position, ...]
-    walker: Seeker
+    path: tuple[Place, ...]
+    walker: Any
 
     @property
     def finished(self) -> bool:
@@ -73,109 +63,82 @@ class Walk:
         return self.run.steps_to_complete is not None
 
 
-def explore(
-    maze: Maze,
-    *,
-    agent: str = "cogmap",
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    seed: int = 0,
-    max_steps: int | None = None,
-) -> ExploreRun:
-    """The figures of `walk`."""
-    return walk(maze, agent=agent, settings=settings, cscg=cscg, seed=seed, max_steps=max_steps).run
-
-
-def walk(
-    maze: Maze,
-    *,
-    agent: str = "cogmap",
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    seed: int = 0,
-    max_steps: int | None = None,
-    watch: Watch | None = None,
-) -> Walk:
+def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: Unpack[Options]) -> Walk:
     """Let an agent explore until it is done or out of steps.
 
     Args:
-        maze: the layout, everything open.
-        agent: a name in `AGENTS`.
-        settings: of the agent `cogmap`; static growth gets the number of rooms.
-        cscg: settings of the clone-structured graphs.
+        world: a maze, or an environment with a chart.
         seed: of the start room and of the agent, which get streams of their own.
-        max_steps: moves after which to give up, `default_steps(maze)` unless given.
         watch: looks on.
+        options: see `Options`.
 
     Raises:
         CogmapError: unknown agent, a negative seed, or `max_steps` below 1.
     """
-    check_agent(agent)
-    most = checked_steps("explore", maze, max_steps)
-    start, for_agent, _ = draw_start("explore", maze, seed)
-    walker = make_walker(agent, maze, settings=settings, cscg=cscg, seed=for_agent)
+    session = set_out("explore", world, seed, **options)
     begin = perf_counter()
-    path, _, firsts = go(maze, start, walker, most, watch)
-    seconds = perf_counter() - begin
-    oracle = oracle_steps(maze, start)
-    instead = frontier_steps(maze, start) if oracle is None else None
-    return Walk(ExploreRun(seed, start, *firsts, oracle, seconds, instead), tuple(path), walker)
+    run, known = session.explore(watch)
+    seconds = round(perf_counter() - begin, 4)
+    oracle = oracle_steps(chart_of(world), session.start)
+    instead = frontier_steps(chart_of(world), session.start) if oracle is None else None
+    figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
+    return Walk(ExploreRun(seed, session.start, *figures), run.truth, session.agent)
 
 
-def default_steps(maze: Maze) -> int:
-    """Moves after which an exploration counts as failed, unless told otherwise."""
-    return 50 * len(maze.rooms) + 50
+def explore(world: World, seed: int = 0, **options: Unpack[Options]) -> ExploreRun:
+    """The figures of `walk`."""
+    return walk(world, seed, **options).run
 
 
-def checked_steps(experiment: str, maze: Maze, max_steps: int | None) -> int:
-    """`max_steps`, or `default_steps(maze)` where it is None.
+def explore_many(
+    world: World,
+    *,
+    runs: int,
+    seed: int = 0,
+    executor: Executor | None = None,
+    on_done: Callable[[], None] | None = None,
+    **options: Unpack[Options],
+) -> list[ExploreRun]:
+    """Runs with the seeds `seed`, `seed + 1`, ...; each can be walked again alone with its seed.
+
+    But for `seconds` the result does not depend on `executor`.
 
     Raises:
-        CogmapError: it is below 1.
+        CogmapError: `runs` is below 1, or what `walk` and `map_tasks` raise.
     """
-    most = default_steps(maze) if max_steps is None else max_steps
-    if most < 1:
-        raise CogmapError(f"{experiment}: max_steps is {most}; use 1 or more")
-    return most
+    one = partial(explore, world, **options)
+    return map_seeds(one, runs=runs, seed=seed, executor=executor, on_done=on_done)
 
 
-def draw_start(experiment: str, maze: Maze, seed: int) -> tuple[Position, np.random.SeedSequence, np.random.Generator]:
-    """What a seed settles: the start room, the stream of the agent, and draws of what happens to it later.
+def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
+    """Counts, means and standard deviations (population) over the runs that got there; None where none did.
 
-    Raises:
-        CogmapError: `seed` is below 0.
+    `ratio` is the mean of `steps_to_complete` over that of `oracle_steps` on the same, completed runs (1 for a
+    maze of one room); it and `mean_oracle_steps` are None where a run has no oracle.
     """
-    if seed < 0:
-        raise CogmapError(f"{experiment}: seed is {seed}; use 0 or more")
-    for_start, for_agent, later = np.random.SeedSequence(seed).spawn(3)
-    start = maze.rooms[int(np.random.default_rng(for_start).integers(len(maze.rooms)))]
-    return start, for_agent, np.random.default_rng(later)
+    done = [run for run in runs if run.steps_to_complete is not None]
+    summary: dict[str, Any] = {
+        "runs": len(runs),
+        "completed": len(done),
+        "visited_all": sum(run.steps_to_visit_all is not None for run in runs),
+        "learned": sum(run.steps_to_learn is not None for run in runs),
+        "max_steps": max_steps,
+    }
+    for name in ("steps_to_complete", "steps_to_visit_all", "steps_to_learn"):
+        values = [getattr(run, name) for run in runs]
+        summary |= {f"mean_{name}": mean(values), f"std_{name}": std(values)}
+    exact = all(run.oracle_steps is not None for run in runs)
+    summary["mean_oracle_steps"] = mean(run.oracle_steps for run in runs) if exact else None
+    steps, oracle = ([getattr(run, name) for run in done] for name in ("steps_to_complete", "oracle_steps"))
+    summary["ratio"] = ratio(steps, oracle) if exact else None
+    if not exact:
+        summary["mean_frontier_steps"] = mean(run.frontier_steps for run in runs)
+    return summary
 
 
-Firsts = tuple[int | None, int | None, int | None]
-
-
-def go(
-    maze: Maze, start: Position, walker: Walker, most: int, watch: Watch | None = None
-) -> tuple[list[Position], int, Firsts]:
-    """The walk: its rooms, the action chosen last, and the steps to visit all, to learn, and to complete."""
-    world, truth = MazeEnv(maze), Truth(maze, start)
-    number = {room: i for i, room in enumerate(maze.rooms)}
-    observation, _ = world.reset(options={"start": start})
-    path, rooms, entered, step = [start], [number[start]], {start}, 0
-    visit_all = learn = complete = None
-    while True:
-        action = walker.step(sensed(walker, observation, path[-1]))
-        visited, learned = truth.visited_by(walker, len(entered)), truth.learned_by(walker, rooms)
-        visit_all = step if visited and visit_all is None else visit_all
-        learn = step if learned and learn is None else learn
-        complete = step if visited and learned else None
-        if watch is not None:
-            watch(walker, world, len(entered))
-        if step == most or complete is not None:
-            return path, action, (visit_all, learn, complete)
-        observation, _, _, _, info = world.step(action)
-        path.append(info["position"])
-        rooms.append(number[info["position"]])
-        entered.add(info["position"])
-        step += 1
+def exploration(world: World, runs: Sequence[ExploreRun], **options: Unpack[Options]) -> dict[str, Any]:
+    """World, agent, settings (none for a baseline that has none), runs and summary, as plain JSON values."""
+    maker, chart = maker_in(**options), chart_of(world)
+    most = checked_steps("explore", world, options.get("max_steps"))
+    head = {"world": chart.name, "agent": maker.agent, "settings": maker.to_dict(chart)}
+    return {**head, "runs": [run.to_dict() for run in runs], "summary": summarise(runs, max_steps=most)}

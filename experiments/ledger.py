@@ -5,19 +5,20 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
+from contextlib import AbstractContextManager, suppress
+from io import FileIO
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self, TypeVar, cast
+from typing import Any, TypeVar, cast
 
-from ..model.errors import CogmapError
-from .ledger_file import SCHEMA, VERSION, lock, open_file, read_lines
+from ..model import CogmapError
 
+SCHEMA, VERSION = "cogmap.cells", 1
+_BEGINNING = f'{{"schema": "{SCHEMA}"'.encode()
 _UNSET = "nothing"
 Read = TypeVar("Read")
 
 
-class Ledger:
+class Ledger(AbstractContextManager["Ledger"]):
     """Rows in a file of JSON lines, after a header line that says what they were made with.
 
     Each row is on the disk before `append` returns, written at once behind those before it: whatever ends the
@@ -32,10 +33,10 @@ class Ledger:
 
     def __init__(self, path: Path | str) -> None:
         self.path = Path(path)
-        self._file = open_file(self.path)
+        self._file = _opened(self.path)
         try:
-            lock(self._file, self.path)
-            self._header, self._rows, self._torn_from = read_lines(self._file, self.path)
+            _lock(self._file, self.path)
+            self._header, self._rows, self._end = _read(self._file, self.path)
         except BaseException:
             self.close()
             raise
@@ -43,7 +44,7 @@ class Ledger:
     @property
     def rows(self) -> list[dict[str, Any]]:
         """The rows in the file, the oldest first."""
-        return [row for _, row in self._rows]
+        return list(self._rows)
 
     def begin(self, read: Callable[[Mapping[str, Any]], Read], **made_with: Any) -> list[Read]:
         """Go on with what is there, its torn last line cut off, or write the header of a new file.
@@ -65,13 +66,11 @@ class Ledger:
                 f"{self.path} was made with {name} = {json.dumps(there)}, this run has {json.dumps(wanted)}; "
                 "give another file, or remove it"
             )
-        if self._torn_from is not None:
-            os.ftruncate(self._file, self._torn_from)
-            self._torn_from = None
+        os.ftruncate(self._file.fileno(), self._end)
         if self._header is None:
             self._write({"schema": SCHEMA, "version": VERSION, **here})
             self._header = here
-        return [self._read(read, number, row) for number, row in self._rows]
+        return [self._made(read, number, row) for number, row in enumerate(self._rows, start=2)]
 
     def append(self, row: Mapping[str, Any]) -> None:
         """Write a row, plain JSON values; it is on the disk when this returns.
@@ -82,45 +81,101 @@ class Ledger:
         if self._header is None:
             raise CogmapError(f"ledger {self.path} has no header; call begin first")
         self._write(row)
-        self._rows.append((len(self._rows) + 2, dict(row)))
+        self._rows.append(dict(row))
 
     def close(self) -> None:
         """Let others open it; nothing can be written any more."""
-        file, self._file = self._file, -1
-        if file >= 0:
-            os.close(file)
+        self._file.close()
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
-    def __del__(self) -> None:
-        if getattr(self, "_file", -1) >= 0:
-            self.close()
-
-    def _read(self, read: Callable[[Mapping[str, Any]], Read], number: int, row: Mapping[str, Any]) -> Read:
+    def _made(self, read: Callable[[Mapping[str, Any]], Read], number: int, row: Mapping[str, Any]) -> Read:
         try:
             return read(row)
         except CogmapError as error:
             raise CogmapError(f"{self.path}, line {number}: {error}") from error
 
     def _write(self, row: Mapping[str, Any]) -> None:
-        if self._file < 0:
+        if self._file.closed:
             raise CogmapError(f"ledger {self.path} is closed; open it again")
         line = json.dumps(row, allow_nan=False).encode() + b"\n"
-        before = os.fstat(self._file).st_size
         try:
-            if os.write(self._file, line) < len(line):
+            if self._file.write(line) != len(line):
                 raise OSError("the disk is full")
-            os.fsync(self._file)
+            os.fsync(self._file.fileno())
         except OSError as error:
             with suppress(OSError):
-                os.ftruncate(self._file, before)
+                os.ftruncate(self._file.fileno(), self._end)
             raise CogmapError(
                 f"cannot write {self.path} ({error.strerror or error}); its finished rows are kept, make room and go on"
             ) from error
+        self._end += len(line)
+
+
+def _opened(path: Path) -> FileIO:
+    """The file, to be read and written behind what is there."""
+    try:
+        if path.exists() and not path.is_file():
+            raise CogmapError(f"cannot write {path}: it is a folder or a device; give a file")
+        return path.open("ab+", buffering=0)
+    except OSError as error:
+        raise CogmapError(f"cannot write {path} ({error.strerror or error}); choose another file") from error
+
+
+def _lock(file: FileIO, path: Path) -> None:
+    """Keep others out until the file is closed; where there are no locks, go without."""
+    try:
+        import fcntl
+
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise CogmapError(f"{path} is in use by another run; wait for its end, or give another file") from error
+    except (ImportError, OSError):  # a system or a file system without locks
+        return
+
+
+def _read(file: FileIO, path: Path) -> tuple[dict[str, Any] | None, list[dict[str, Any]], int]:
+    """Header (None of an empty file), rows, and how many bytes are whole lines.
+
+    A torn last line was being written when its process was killed.
+
+    Raises:
+        CogmapError: it is another kind of file, of another version, or a line before the last is no row.
+    """
+    file.seek(0)
+    lines = file.readall().splitlines(keepends=True)
+    if not lines or (len(lines) == 1 and _torn_header(lines[0])):
+        return None, [], 0
+    header, *rows = map(_parsed, lines)
+    if header is None or header.get("schema") != SCHEMA:
+        raise CogmapError(
+            f"{path} keeps no runs of cogmap (its first line names no schema {SCHEMA}); give another file"
+        )
+    if header.get("version") != VERSION:
+        raise CogmapError(
+            f"{path} has version {header.get('version')} of the schema {SCHEMA}, this cogmap writes {VERSION}; "
+            "give another file"
+        )
+    if rows and rows[-1] is None:
+        del rows[-1], lines[-1]
+    if None in rows:
+        number = rows.index(None) + 2
+        raise CogmapError(f"{path}, line {number}: unreadable; remove this line, its run is made again")
+    return header, cast(list[dict[str, Any]], rows), sum(map(len, lines))
+
+
+def _torn_header(line: bytes) -> bool:
+    return not line.endswith(b"\n") and (line.startswith(_BEGINNING) or _BEGINNING.startswith(line))
+
+
+def _parsed(line: bytes) -> dict[str, Any] | None:
+    """The object in a whole line; None if there is none."""
+    try:
+        value: Any = json.loads(line) if line.endswith(b"\n") else None
+    except ValueError:
+        return None
+    return cast(dict[str, Any], value) if isinstance(value, dict) else None
 
 
 def _difference(there: Mapping[str, Any], here: Mapping[str, Any]) -> tuple[str, Any, Any] | None:

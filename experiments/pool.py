@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, as_completed
 from typing import Any, TypeVar
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -20,7 +20,7 @@ class WorkerLostError(CogmapError):
 def completed(
     function: Callable[[Task], Result], tasks: Sequence[Task], *, executor: Executor | None = None
 ) -> Iterator[tuple[int, Result]]:
-    """(index of the task, result) as they finish.
+    """(index of the task, result) as they finish; at the first error those that are there, then the error.
 
     Closing the iterator, or an error of any task, cancels what has not begun.
 
@@ -33,20 +33,19 @@ def completed(
         WorkerLostError: a worker was killed, or its cluster is gone.
     """
     if executor is None:
-        for index, task in enumerate(tasks):
-            yield index, function(task)
+        yield from ((index, function(task)) for index, task in enumerate(tasks))
         return
-    indices: dict[Future[Result], int] = {}
+    left: dict[Future[Result], int] = {}
     try:
         for index, task in enumerate(tasks):
-            indices[executor.submit(function, task)] = index
-        yield from _results(indices)
+            left[executor.submit(function, task)] = index
+        yield from _results(left)
     except BrokenExecutor as error:
         raise WorkerLostError("a worker process was killed, perhaps out of memory; use fewer jobs") from error
     except _dask_errors() as error:
         raise WorkerLostError("the Dask cluster lost its scheduler, or workers again and again") from error
     finally:
-        for future in indices:
+        for future in left:
             future.cancel()
 
 
@@ -57,14 +56,7 @@ def map_tasks(
     executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> list[Result]:
-    """Results in the order of the tasks, whatever the executor; see `completed`.
-
-    Args:
-        function: as there.
-        tasks: as there.
-        executor: as there.
-        on_done: called after each task.
-    """
+    """Results in the order of the tasks, whatever the executor; see `completed`. `on_done` is called after each."""
     results: dict[int, Result] = {}
     for index, result in completed(function, tasks, executor=executor):
         results[index] = result
@@ -91,26 +83,22 @@ def map_seeds(
     return map_tasks(function, range(seed, seed + runs), executor=executor, on_done=on_done)
 
 
-def _results(indices: Mapping[Future[Result], int]) -> Iterator[tuple[int, Result]]:
-    """As they finish; at the first error those that are there, then the error."""
-    left, failure = dict(indices), None
-    for future in as_completed(indices):
-        failure = _failure(future)
-        if failure is not None:
+def _results(left: dict[Future[Result], int]) -> Iterator[tuple[int, Result]]:
+    failed: Future[Result] | None = None
+    for future in as_completed(list(left)):
+        if not _succeeded(future):
+            failed = future
             break
         yield left.pop(future), future.result()
-    for future, index in left.items():
-        if future.done() and _failure(future) is None:
+    for future, index in list(left.items()):
+        if future.done() and _succeeded(future):
             yield index, future.result()
-    if failure is not None:
-        raise failure
+    if failed is not None:
+        failed.result()  # raises
 
 
-def _failure(future: Future[Any]) -> BaseException | None:
-    try:
-        return future.exception()
-    except CancelledError as error:
-        return error
+def _succeeded(future: Future[Any]) -> bool:
+    return not future.cancelled() and future.exception() is None
 
 
 def _dask_errors() -> tuple[type[BaseException], ...]:

@@ -14,7 +14,7 @@ class ImpossibleEvidence(CogmapError):  # noqa: N818 - reads as what it says
 def impossible(graph: FactorGraph, given: Mapping[str, object], variables: Iterable[str]) -> ImpossibleEvidence:
     """The error that names the factors which leave no value to `variables`, and the evidence."""
     names = set(variables)
-    touching = [f.label for f in graph.factors if names & {v.name for v in f.scope}]
+    touching = [f.label for f in graph.factors if f.label in names or names & {v.name for v in f.scope}]
     return ImpossibleEvidence(
         f"the evidence is impossible: every assignment of {_listed(sorted(names))} has probability 0; "
         f"check {_given(given)} and the zeros of {_listed(touching)}, or give the zeros a floor"

@@ -7,14 +7,14 @@ directed prior has Z_R = 1. F counts the factors as they are, so log Z_R stands 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model import CogmapError, Factor, FactorGraph, FloatArray
-from .evidence import all_evidence, fixed_indices
+from ..model import AllEvidence, CogmapError, Factor, FactorGraph, FloatArray
+from .evidence import given
 from .posterior import Posterior, expected_log
 from .query import infer
 
@@ -78,7 +78,7 @@ def free_energy_of(
     graph: FactorGraph,
     q: Mapping[str, ArrayLike],
     *,
-    evidence: Mapping[str, Hashable] | None = None,
+    evidence: AllEvidence | None = None,
     likelihood: Callable[[Factor], bool] | None = None,
     engine: str = "numpy",
 ) -> FreeEnergy:
@@ -94,7 +94,8 @@ def free_energy_of(
     Raises:
         CogmapError: a latent variable is missing from `q`, or its probabilities are none.
     """
-    graph = graph.observe_all(all_evidence(graph, evidence))
+    graph = graph.observe_all(evidence or {})
+    given(graph)
     beliefs = _checked(graph, q)
     expected = {factor.label: _factorised_log(factor, beliefs) for factor in graph.factors}
     entropy = -sum(expected_log(belief, belief) for belief in beliefs.values())
@@ -135,13 +136,13 @@ def _parts(
 
 def _checked(graph: FactorGraph, q: Mapping[str, ArrayLike]) -> dict[str, FloatArray]:
     """q for every variable: as given for the latent ones, one-hot for those that are known."""
-    fixed = fixed_indices(graph, graph.evidence)
+    fixed = given(graph).fixed
     for name in q:
         graph.variable_named(name)
     beliefs: dict[str, FloatArray] = {}
-    for variable in graph.variables:
-        if variable.name in fixed:
-            beliefs[variable.name] = np.eye(variable.cardinality)[fixed[variable.name]]
+    for number, variable in enumerate(graph.variables):
+        if number in fixed:
+            beliefs[variable.name] = np.eye(variable.cardinality)[fixed[number]]
             continue
         if variable.name not in q:
             raise CogmapError(f"free energy: q has nothing for {variable.name!r}; give its probabilities")

@@ -4,75 +4,156 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
+from itertools import islice
 
-from ..model import CogmapError, FactorGraph
-from .evidence import all_evidence
-from .exact import maximise, reduce, solve
-from .posterior import MostProbable, Posterior
+import numpy as np
+
+from ..model import AllEvidence, CogmapError, FactorGraph, Variable
+from .evidence import Given, given
+from .exact import (
+    ENGINES,
+    MEMORY,
+    Order,
+    best_first,
+    buckets,
+    forward,
+    marginal_maximum,
+    maximise,
+    plan_elimination,
+    reduce,
+    solve,
+)
+from .posterior import MostProbable, Name, Posterior
+
+Engine = str
 
 
 def infer(
     graph: FactorGraph,
     *,
-    evidence: Mapping[str, Hashable] | None = None,
-    pairs: Iterable[Sequence[str]] = (),
-    engine: str = "numpy",
-    order: Sequence[str] | None = None,
+    evidence: AllEvidence | None = None,
+    targets: Iterable[Name] | None = None,
+    pairs: Iterable[Sequence[Name]] = (),
+    engine: Engine = "numpy",
+    order: Order = None,
+    memory: float = MEMORY,
 ) -> Posterior:
-    """Exact posterior of a factor graph: log evidence, all marginals, the joints asked for.
+    """Posterior of a factor graph: log evidence, marginals, joints.
 
     Args:
         graph: the graph; evidence given by `graph.observe` counts too.
-        evidence: a label for each observed variable, by name.
-        pairs: sets of names (two, three, ...) whose joints are wanted at once; others can be asked for later.
-        engine: `"numpy"` (bucket elimination), `"gtsam"`, or `"brute"` (enumeration, small graphs).
-        order: order of elimination, all latent variables by name; by default along time, else minimum fill.
+        evidence: by variable (its name, or itself) a label, or likelihoods of labels.
+        targets: the variables asked for; whatever cannot tell anything about them is left out. All by default.
+        pairs: sets of variables (two, three, ...) whose joints are wanted at once; others can be asked for later.
+        engine: exact are `"numpy"` (bucket elimination), `"gtsam"`, and `"brute"` (enumeration, small graphs).
+        order: order of elimination, all latent variables; by default the cheapest of several.
+        memory: bytes that products and messages may take.
 
     Raises:
         ImpossibleEvidence: no assignment has a product above zero.
-        CogmapError: unknown engine, variable or label, a bad `order`, or a cluster too large for the engine.
+        CogmapError: unknown engine, variable or label, a bad `order`, or not enough memory.
     """
     graph = graph.copy()
-    wanted = _checked_pairs(graph, pairs)
-    problem = reduce(graph, all_evidence(graph, evidence))
-    solution = solve(problem, engine, order)
-    joints = {names: solution.joint(names) for names in wanted}
-    return Posterior(graph, problem.given, engine, solution.log_evidence, solution, joints)
+    wanted = checked_pairs(graph, pairs)
+    asked = None if targets is None else checked_targets(graph, targets)
+    known = given(graph, evidence)
+    _check_engine(engine)
+    solution = solve(graph, known, engine, order=order, memory=memory, asked=asked)
+    posterior = Posterior(graph, engine, None, known, solution, {})
+    joints = {names: posterior.joint(*names) for names in wanted}
+    return Posterior(graph, engine, None, known, solution, joints)
 
 
 def most_probable(
     graph: FactorGraph,
     *,
-    evidence: Mapping[str, Hashable] | None = None,
+    evidence: AllEvidence | None = None,
     engine: str = "numpy",
-    order: Sequence[str] | None = None,
+    order: Order = None,
+    memory: float = MEMORY,
 ) -> MostProbable:
     """The most probable assignment, by max-product; ties are broken by the engine.
 
-    Arguments and errors as for `infer`.
+    Arguments and errors as for `infer`; `engine` is an exact one.
     """
     graph = graph.copy()
-    problem = reduce(graph, all_evidence(graph, evidence))
-    labels = maximise(problem, engine, order)
-    return MostProbable(graph, labels, log_product(graph, labels))
+    known = given(graph, evidence)
+    _check_engine(engine)
+    labels = maximise(graph, known, engine, order=order, memory=memory)
+    return MostProbable(graph, log_product(graph, labels, known), labels)
 
 
-def log_product(graph: FactorGraph, labels: Mapping[str, Hashable]) -> float:
-    """log Π_f f(x_f) at a full assignment of labels; -inf where a factor is zero."""
-    indices = {variable.name: variable.index(labels[variable.name]) for variable in graph.variables}
-    total = 0.0
-    for factor in graph.factors:
-        value = float(factor.dense()[tuple(indices[v.name] for v in factor.scope)])
-        total += math.log(value) if value > 0 else -math.inf
-    return total
+def k_most_probable(
+    graph: FactorGraph, count: int, *, evidence: AllEvidence | None = None, memory: float = MEMORY
+) -> list[MostProbable]:
+    """The `count` most probable assignments, best first; fewer where fewer have a product above 0.
+
+    Raises:
+        CogmapError: `count` is below 1, and what `infer` raises.
+    """
+    if count < 1:
+        raise CogmapError(f"k_most_probable: cannot give {count} assignments; ask for 1 or more")
+    graph = graph.copy()
+    known = given(graph, evidence)
+    problem = reduce(graph, known)
+    done = forward(buckets(problem, plan_elimination(problem, memory=memory)), problem.tables, maximum=True)
+    found = (problem.labels(nodes) for nodes, _ in islice(best_first(done), count))
+    return [MostProbable(graph, log_product(graph, labels, known), labels) for labels in found]
 
 
-def _checked_pairs(graph: FactorGraph, pairs: Iterable[Sequence[str]]) -> list[tuple[str, ...]]:
+def marginal_map(
+    graph: FactorGraph,
+    variables: Iterable[Name],
+    *,
+    evidence: AllEvidence | None = None,
+    memory: float = MEMORY,
+) -> MostProbable:
+    """The most probable assignment of some variables, all others summed out. For small cases: that can cost much.
+
+    Raises:
+        CogmapError: no variable is named, and what `infer` raises.
+    """
+    graph = graph.copy()
+    names = checked_targets(graph, variables)
+    known = given(graph, evidence)
+    problem = reduce(graph, known)
+    indices, log_probability = marginal_maximum(problem, problem.nodes(names), memory)
+    labels = problem.labels(indices)
+    return MostProbable(graph, log_probability, {name: labels[name] for name in names})
+
+
+def log_product(graph: FactorGraph, labels: Mapping[str, Hashable], known: Given | None = None) -> float:
+    """log Π_f f(x_f) at a full assignment of labels, soft evidence included; -inf where a factor is zero."""
+    known = known or given(graph)
+    indices = [np.array([variable.index(labels[variable.name])]) for variable in graph.variables]
+    wiring = graph.wiring
+    values = [
+        factor.at([indices[i] for i in scope]) for factor, scope in zip(wiring.factors, wiring.scopes, strict=True)
+    ]
+    values += [likelihoods[indices[i]] for i, likelihoods in known.soft.items()]
+    return math.fsum(math.log(value[0]) if value[0] > 0 else -math.inf for value in values)
+
+
+def checked_pairs(graph: FactorGraph, pairs: Iterable[Sequence[Name]]) -> list[tuple[str, ...]]:
+    """Names of sets of variables."""
     wanted: list[tuple[str, ...]] = []
     for names in pairs:
-        if isinstance(names, str) or not names:
+        if isinstance(names, str | Variable) or not names:
             raise CogmapError(f"inference: pairs holds {names!r}; give tuples of variable names")
-        for name in names:
-            graph.variable_named(name)
-        wanted.append(tuple(names))
+        wanted.append(tuple([graph.variable_named(name).name for name in names]))
     return wanted
+
+
+def checked_targets(graph: FactorGraph, targets: Iterable[Name]) -> list[str]:
+    """Names of the variables asked for."""
+    if isinstance(targets, str | Variable):
+        raise CogmapError(f"inference: the targets are {targets!r}; give a list of variables")
+    names = [graph.variable_named(name).name for name in targets]
+    if not names:
+        raise CogmapError("inference: no target is named; name one variable at least")
+    return names
+
+
+def _check_engine(engine: str) -> None:
+    if engine not in ENGINES:
+        raise CogmapError(f"inference: no engine {engine!r}; choose one of {', '.join(ENGINES)}")

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .changes import Change, Changes, Store
+from .dirichlet import SparseDirichlet
 from .errors import CogmapError
 from .factors import Displacement, Lattice, ModelFactor, Pose, Sensor, Sight, Transition, Ways
 from .factors.base import Context
@@ -43,6 +44,9 @@ class GenerativeModel:
         changes: the log of all that is written.
         growth: everything that was ever added, in order.
         visits: which places were entered.
+        A_o: counts of the first sensor that sees labels; every place shows the same where none does.
+        A_p: counts of positions; empty where places have none.
+        B_s: counts of transitions.
 
     Raises:
         CogmapError: two sensors of one name, or a part that belongs to another model.
@@ -81,6 +85,9 @@ class GenerativeModel:
                 factor.attach(context)
         for sensor in given:
             sensor.join(context, self.transitions)
+        blank = SparseDirichlet(name="A_o", slots=1, background=1.0, outcomes=1)
+        self.A_o = self.sights_sensed[0].table if self.sights_sensed else blank
+        self.A_p, self.B_s = self.pose.table, self.transitions.table
         self._size = 0
 
     @property
@@ -214,15 +221,19 @@ class GenerativeModel:
 
     def put(self, where: int, value: bool) -> None:
         """Append the next place, or drop the last one, without telling the log."""
-        self._size = where + value
-        self.visits.resize(self._size)
+        self._resize(where + value)
         for factor in self.factors:
             factor.grow(self._size)
 
-    def restore(self, places: int, visits: Ints) -> None:
-        """Have so many places, these of them visited; its factors have been restored already."""
+    def _resize(self, places: int) -> None:
         self._size = places
         self.visits.resize(places)
+        if not self.sights_sensed:
+            self.A_o.resize(places)
+
+    def restore(self, places: int, visits: Ints) -> None:
+        """Have so many places, these of them visited; its factors have been restored already."""
+        self._resize(places)
         self.visits.restore(visits)
 
     def state(self) -> dict[str, NDArray[Any]]:

@@ -37,27 +37,6 @@ class ReadableMap(GenerativeModel):
         return self.sights_sensed[0].labels if self.sights_sensed else Domain("sights")
 
     @property
-    def A_o(self) -> SparseDirichlet:
-        """Counts of the first of them.
-
-        Raises:
-            CogmapError: no sensor sees labels.
-        """
-        if not self.sights_sensed:
-            raise CogmapError("map: no sensor of it sees labels, so there is no A_o; give it a Sight")
-        return self.sights_sensed[0].table
-
-    @property
-    def A_p(self) -> SparseDirichlet:
-        """Counts of the positions of places; empty where they have none."""
-        return self.pose.table
-
-    @property
-    def B_s(self) -> SparseDirichlet:
-        """Counts of transitions."""
-        return self.transitions.table
-
-    @property
     def positions(self) -> Domain:
         """Positions met so far; none where places have no pose."""
         return self.pose.positions

@@ -11,7 +11,6 @@ from ..model import CogmapError
 from .energy import ExpectedFreeEnergy
 from .local import LocalModel
 from .policies.base import Policies
-from .prediction import Predict, predictor
 from .prefixes import Prefixes, prefixes_of
 from .terms import TERMS, Rollout, Staying, Term
 
@@ -55,19 +54,18 @@ def _in_groups(model: LocalModel, policies: Policies, terms: tuple[Term, ...]) -
 
 def _in_parts(model: LocalModel, policies: Policies, terms: tuple[Term, ...]) -> Floats:
     """`[T, P]` the terms of each policy."""
-    predict = predictor(model.B)
     size = max(1, CHUNK // (len(model.belief) * policies.actions.shape[1]))
     if len(policies) <= size:
-        return _evaluate(model, predict, policies, terms)
+        return _evaluate(model, policies, terms)
     parts = (Policies(policies.actions[i : i + size]) for i in range(0, len(policies), size))
-    return np.concatenate([_evaluate(model, predict, part, terms) for part in parts], axis=1)
+    return np.concatenate([_evaluate(model, part, terms) for part in parts], axis=1)
 
 
-def _evaluate(model: LocalModel, predict: Predict, policies: Policies, terms: tuple[Term, ...]) -> Floats:
+def _evaluate(model: LocalModel, policies: Policies, terms: tuple[Term, ...]) -> Floats:
     """`[T, P]` the terms of each policy."""
     length, moving = policies.actions.shape[1], _moving(model, policies.actions)
     prefixes = policies.prefixes if moving == length else prefixes_of(policies.actions[:, :moving])
-    rolled, ends = _roll(model, predict, prefixes), prefixes.of[:, -1]
+    rolled, ends = _roll(model, prefixes), prefixes.of[:, -1]
     gains = np.stack([term.gain(rolled) for term in terms])
     total = _summed(model.discount, prefixes, gains).take(ends, axis=1)
     if moving < length:
@@ -87,13 +85,13 @@ def _moving(model: LocalModel, actions: Ints) -> int:
     return moving if length - moving > model.look_ahead else length
 
 
-def _roll(model: LocalModel, predict: Predict, prefixes: Prefixes) -> Rollout:
+def _roll(model: LocalModel, prefixes: Prefixes) -> Rollout:
     """Beliefs rolled forward, level by level."""
     belief = np.zeros((len(prefixes), len(model.belief)))
     belief[0] = model.belief
     for above, begin, end in prefixes.levels:
         parent, action = prefixes.parent[begin:end], prefixes.action[begin:end]
-        belief[begin:end] = predict(belief[above:begin], parent - above, action)
+        belief[begin:end] = model.B.predicted(belief[above:begin], parent - above, action)
     levels = [(begin, end) for _, begin, end in prefixes.levels]
     return Rollout(model, prefixes.parent, prefixes.action, levels, belief)
 

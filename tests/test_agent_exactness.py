@@ -37,7 +37,7 @@ def assert_plain(agent: Agent) -> None:
         np.testing.assert_array_equal(getattr(plan.model, name), getattr(fresh, name), err_msg=name)
     for name, table in fresh.information.items():
         np.testing.assert_array_equal(plan.model.information[name], table, err_msg=name)
-    np.testing.assert_array_equal(np.asarray(plan.model.B), np.asarray(fresh.B))
+    np.testing.assert_array_equal(plan.model.B.dense, fresh.B.dense)
 
 
 @pytest.mark.parametrize("policies", ["map_guided", "self_avoiding"])

@@ -13,9 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.experiments.exploring import default_steps
-from cogmap.experiments.knowledge import BELIEVED, Truth
-from cogmap.experiments.session import Session, explored
+from cogmap.experiments import BELIEVED, Session, Truth, explored
 from cogmap.worlds import MAZES, Maze, MazeEnv, covering_walk
 from walks import GRID, assert_agent_is_sound
 
@@ -87,7 +85,7 @@ class Recovery:
 
 
 def lied_to(lie: Lie, name: str, seed: int, *, steps: int) -> Recovery:
-    session = explored("lies", MAZES[name], settings=None, seed=seed, most=default_steps(MAZES[name]))
+    session = explored("lies", MAZES[name], seed)
     assert session.steps is not None
     agent, world, rng = session.agent, session.world, np.random.default_rng(seed)
     places, truth = len(agent.map.places), Truth(world.maze, session.start)

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.model import FactorGraph
-from cogmap.views.explain import explain
+from cogmap.views import explain
 from cogmap.worlds import load_world
 from command_line import cogmap
 from walks import GRID, walk

@@ -10,7 +10,7 @@ import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError
 from cogmap.planning import POLICIES, TIE, Outward
-from cogmap.views.explain import Explanation, explain
+from cogmap.views import Explanation, explain
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st

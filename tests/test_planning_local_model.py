@@ -125,7 +125,7 @@ def test_doors_are_as_sensed_where_the_agent_may_be() -> None:
     map_ = corridor(9)
     shut = local_model(map_, np.array([4]), np.ones(1), open_=(False, True, True), look_ahead=2)
     at = int(np.searchsorted(shut.places[:-1], 4))
-    B = np.asarray(shut.B)
+    B = shut.B.dense
     assert B[at, at, BACK] == shut.blocked[at, BACK] == 1.0
     assert B[at + 1, at, ON] == pytest.approx(1.0)
     assert shut.blocked[at, ON] == 0.0
@@ -134,7 +134,7 @@ def test_doors_are_as_sensed_where_the_agent_may_be() -> None:
 
 
 def test_the_cost_of_a_plan_is_that_of_the_neighbourhood() -> None:
-    assert model_of(corridor(4000), 2000).B.shape == model_of(corridor(40), 20).B.shape
+    assert model_of(corridor(4000), 2000).B.dense.shape == model_of(corridor(40), 20).B.dense.shape
 
 
 @pytest.mark.parametrize("many", [STARTS, STARTS + 60])
@@ -180,10 +180,10 @@ def test_likeliest_is_the_greatest_of_the_dense_table() -> None:
 @pytest.mark.parametrize(
     ("successors", "p", "message"),
     [
-        (np.zeros((5, 5, 2), dtype=np.int64), np.full((5, 5, 3), 1 / 3), "B has successors and probability"),
+        (np.zeros((5, 5, 2), dtype=np.int64), np.full((5, 5, 3), 1 / 3), "probability of B has shape"),
         (np.full((5, 5, 1), 5), np.ones((5, 5, 1)), "B leads out of the places"),
         (np.zeros((5, 5, 1), dtype=np.int64), np.full((5, 5, 1), np.nan), "B is no probability"),
-        (np.zeros((4, 5, 1), dtype=np.int64), np.ones((4, 5, 1)), "B has shape"),
+        (np.zeros((4, 5, 1), dtype=np.int64), np.ones((4, 5, 1)), "successors of B has shape"),
     ],
 )
 def test_successors_that_do_not_fit_are_refused(successors: np.ndarray, p: np.ndarray, message: str) -> None:

@@ -56,7 +56,7 @@ def test_rows_are_worked_out_once_and_again_after_they_are_forgotten(ops: list[t
         truth.update(dict.fromkeys(rows - known, step))
         asked.clear()
         if len(wanted):
-            first, second = kept.columns(wanted, 0, 1)
+            first, second = (column[:-1] for column in kept.columns(wanted))
             assert first.tolist() == [[truth[row], row] for row in sorted(rows)]
             np.testing.assert_array_equal(second, wanted * 2)
         assert set(asked) == rows - known
@@ -66,8 +66,8 @@ def test_rows_are_worked_out_once_and_again_after_they_are_forgotten(ops: list[t
 def test_rows_that_become_wider_are_worked_out_again() -> None:
     width = 1
     kept = Rows(lambda rows: (np.repeat(rows[:, None], width, axis=1),))
-    assert kept.columns(np.array([3, 1]), 0)[0].tolist() == [[3], [1]]
+    assert kept.column(0, np.array([3, 1])).tolist() == [[3], [1]]
     width = 2
-    assert kept.columns(np.array([1]), 0)[0].tolist() == [[1]]  # nobody said that it had changed
-    assert kept.columns(np.array([1, 7]), 0)[0].tolist() == [[1, 1], [7, 7]]
-    assert kept.columns(np.array([3]), 0)[0].tolist() == [[3, 3]]
+    assert kept.column(0, np.array([1])).tolist() == [[1]]  # nobody said that it had changed
+    assert kept.column(0, np.array([1, 7])).tolist() == [[1, 1], [7, 7]]
+    assert kept.column(0, np.array([3])).tolist() == [[3, 3]]

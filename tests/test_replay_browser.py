@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from charts import row, torus
 from cogmap.agent import Agent, Settings
-from cogmap.views import Recorder
-from cogmap.views.replay import replay_html
+from cogmap.views import Recorder, replay_html
 from recordings import eventful_walk, tolman_walk
 from walks import GRID
 
@@ -259,10 +259,10 @@ def test_less_motion_is_respected(open_page: Any, pages: Path) -> None:
 def test_hostile_labels_do_nothing(open_page: Any, tmp_path: Path) -> None:
     labels = ["</script><script>alert(1)</script>", "<img src=x onerror=alert(1)>", "'\"`${1}", "a" * 300]
     agent = Agent(GRID, settings=Settings(look_ahead=2), seed=0)
-    recorder = Recorder({(0, i): label for i, label in enumerate(labels)}, title=labels[1], goals=labels)
+    recorder = Recorder(row(*labels), title=labels[1], goals=labels)
     for i, label in enumerate(labels):
         agent.step({"sight": label, "open": [False, False, False, True, True]})
-        recorder.add(agent, position=(0, i))
+        recorder.add(agent, place=(0, i))
     path = tmp_path / "hostile.html"
     path.write_text(replay_html(recorder.recording()), encoding="utf-8")
     page = open_page(path, viewport=PHONE)
@@ -285,3 +285,22 @@ def test_walks_without_truth_or_in_one_dimension(open_page: Any, tmp_path: Path)
     assert page.locator("#maze").count() == 0
     assert page.locator("#map-svg .place").count() == 2
     assert state(page, "step") == "0"
+
+
+def test_a_walk_on_a_graph(open_page: Any, tmp_path: Path) -> None:
+    chart, recorder = torus(4), Recorder(torus(4), goals=[5])
+    agent, place = Agent(GRID, settings=Settings(look_ahead=2), seed=0), (0, 0)
+    for _ in range(12):
+        action = agent.step({"sight": chart.sights[place], "open": [True] * 5})
+        recorder.add(agent, place=place, closed_rooms=[(2, 2)], closed_doors=[((1, 0), (1, 3))])
+        place = {**chart.successors(place), "stay": place}[list(GRID)[action]]
+    path = tmp_path / "torus.html"
+    path.write_text(replay_html(recorder.recording()), encoding="utf-8")
+    page = open_page(path, viewport=PHONE)
+    assert page.locator("#maze-panel h2").text_content() == "The world, as it is"
+    assert page.locator("#maze-svg .place").count() == 16
+    assert page.locator("#maze-svg .world-way").count() == 32
+    page.keyboard.press("End")
+    assert room(page) != "(0, 0)"
+    assert page.locator("#maze-svg .trail").count() >= 11
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360

@@ -89,12 +89,11 @@ def test_moves_follow_the_ways_of_the_graph_and_displacements_add_up(size: int, 
 @given(st.integers(2, 10), st.integers(0, 999))
 def test_json_graphml_and_networkx_are_the_same_world(tmp_path_factory: Any, size: int, seed: int) -> None:
     folder, graph = tmp_path_factory.mktemp("graphs"), street(size, seed)
-    data = nx.node_link_data(graph, edges="edges")
-    data["graph"] = {"name": "street"}
+    data = {key: value for key, value in nx.node_link_data(graph).items() if key not in ("edges", "links")}
+    ways = [{"source": a, "target": b, **attributes} for a, b, attributes in graph.edges(data=True)]
     layout = GraphWorld.from_networkx(graph).layout
-    assert read_graph(written(folder, data)) == layout
-    data["links"] = data.pop("edges")
-    assert read_graph(written(folder, data)) == layout
+    for key in ("edges", "links"):  # networkx has written the one and the other
+        assert read_graph(written(folder, {**data, key: ways})) == layout
     for _, attributes in graph.nodes(data=True):
         attributes["x"], attributes["y"] = attributes.pop("position")
     nx.write_graphml(graph, folder / "street.graphml")
@@ -278,6 +277,28 @@ def test_closures_and_displacing_go_by_the_names_of_places(tmp_path: Path) -> No
         world.close_door(0, 2)
 
 
+def test_a_refused_reset_leaves_the_agent_and_what_it_measured() -> None:
+    graph = street(5, 0)
+    world = GraphWorld.from_networkx(graph)
+    world.reset(options={"start": 0})
+    measured = world.step(1)[0]["displacement"].tolist()
+    with pytest.raises(WorldError, match="no place 9"):
+        world.reset(options={"start": 9})
+    assert world.observe()["displacement"].tolist() == measured != [0.0, 0.0]
+
+
+def test_doors_between_places_of_any_names_can_be_closed() -> None:
+    graph = nx.path_graph(3)
+    nx.set_node_attributes(graph, 0, "sight")
+    world = GraphWorld.from_networkx(nx.relabel_nodes(graph, {0: "a", 1: (1, 2), 2: 3}))
+    world.reset(options={"start": (1, 2)})
+    for end in ("a", 3):
+        world.close_door((1, 2), end)
+        world.close_door(end, (1, 2))
+    assert len(world.closed_doors) == 2
+    assert set(world.observe()["ways"].values()) == {False}
+
+
 def test_layouts_are_equal_by_what_is_in_them_and_can_be_sent() -> None:
     layout = GraphWorld.from_networkx(street(6, 1)).layout
     other = pickle.loads(pickle.dumps(layout))
@@ -335,6 +356,11 @@ def test_any_file_has_a_gymnasium_id(tmp_path: Path) -> None:
         ({"nodes": [{"id": None, "sight": 1}]}, "node 0 has no 'id'"),
         ({"nodes": [{"id": {}, "sight": 1}]}, "id of node 0 is {}"),
         ({"nodes": [{"id": 0, "sight": 1}, {"id": 0, "sight": 1}]}, "two nodes have the id 0"),
+        (
+            {"nodes": [{"id": 0, "sight": [[[[[1]]]]]}], "edges": []},
+            "sight of a node is .*use a word, a finite",
+        ),
+        ({"nodes": [{"id": 0, "sight": [1] * 50}], "edges": []}, "sight of a node is .* short list"),
         ({"nodes": [1]}, "node 0 is 1"),
         ({"nodes": {}}, "is no graph: give"),
         ({"edges": 3}, "no list 'edges'"),
@@ -433,6 +459,18 @@ def test_files_of_other_formats_are_refused_in_one_line(tmp_path: Path, name: st
     with pytest.raises(WorldError, match=message) as caught:
         load_world(written(tmp_path, text, name))
     assert "\n" not in str(caught.value)
+
+
+def test_a_map_that_swells_when_it_is_read_is_refused_at_once(tmp_path: Path) -> None:
+    rows = "".join(
+        f"{a}: &{a} [{', '.join([f'*{b}'] * 9)}]\n" for b, a in zip("abcdefghijkl", "bcdefghijklm", strict=True)
+    )
+    with pytest.raises(WorldError, match="id of node 0"):
+        load_world(written(tmp_path, f"a: &a [x, x]\n{rows}nodes: [{{name: *m}}]\n", "bomb.yaml"))
+
+
+def test_a_name_that_cannot_be_printed_is_not_taken(tmp_path: Path) -> None:
+    assert read_graph(written(tmp_path, square(graph={"name": "\x1b[31mred"}))).name == "world"
 
 
 def test_files_that_are_too_large_or_not_graphs_by_name_are_not_read(

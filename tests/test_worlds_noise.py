@@ -14,6 +14,7 @@ from cogmap.worlds import (
     HasChart,
     Maze,
     MazeEnv,
+    Motions,
     NoisyWorld,
     WorldError,
     load_world,
@@ -203,6 +204,18 @@ def test_other_environments_err_in_what_they_have() -> None:
             NoisyWorld(Lamp(), **{kind: 0.1})
 
 
+def test_labels_that_nobody_lists_cannot_be_drawn() -> None:
+    class Thermometer(gym.Env[dict[str, Any], int]):
+        motions = Motions(("left", "right"), ((-1,), (1,)))
+        observation_space = spaces.Dict({"sight": spaces.Box(0.0, 1.0)})
+
+    with pytest.raises(WorldError, match="draws from the labels of 'sight'"):
+        NoisyWorld(Thermometer(), sight=0.1)
+    with pytest.raises(WorldError, match="needs an action that stays"):
+        NoisyWorld(Thermometer(), fail=0.1)
+
+
+@pytest.mark.filterwarnings("ignore:.*different from the unwrapped:UserWarning")
 def test_noise_goes_through_gymnasiums_check_and_around_its_wrappers() -> None:
     check_env(NoisyWorld(load_world("4x4"), sight=0.2, door=0.2, slip=0.2, moved=0.1), skip_render_check=True)
     world = NoisyWorld(gym.make("cogmap/3x3-v0"), sight=0.1)

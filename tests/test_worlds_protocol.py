@@ -13,6 +13,8 @@ from cogmap.worlds import (
     load_world,
     offered,
     place_of,
+    torus,
+    world_of,
 )
 
 
@@ -28,6 +30,14 @@ def test_a_maze_offers_everything_through_wrappers() -> None:
 def test_what_a_world_does_not_offer_is_named() -> None:
     with pytest.raises(WorldError, match=r"kidnapping needs a world that is a cogmap\.worlds\.CanDisplace"):
         offered(gym.make("CartPole-v1"), CanDisplace, "kidnapping")
+
+
+def test_a_chart_makes_a_world() -> None:
+    assert world_of(MAZES["donut"]).maze is MAZES["donut"]
+    layout = torus(2, 3).layout
+    assert world_of(layout).chart is layout
+    with pytest.raises(WorldError, match="no world can be made of a dict"):
+        world_of({})  # type: ignore[arg-type]
 
 
 def test_info_tells_the_place_or_an_error_says_how_to() -> None:

@@ -1,19 +1,22 @@
-"""Where the agent believes to be, as bars."""
+"""Where the agent believes to be: as bars, and on its map."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..inference.message import Belief
-from ..model import CognitiveMap
-from ..model.errors import CogmapError
-from .axes import axes_or_new
+from ..model import CogmapError, CognitiveMap
+from ..worlds import Chart
+from .axes import Cell, axes_or_new, write_in
 from .colours import SKY, VERMILION
-from .theme import Theme, theme_of
+from .map_picture import MapPicture
+from .map_plot import draw_map, underlay
+from .picture import RADIUS
+from .theme import theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,6 +25,8 @@ Places = Belief | Mapping[int, float]
 """Q(s) by number of the place: a belief, or the `places` of a step's record."""
 
 TRUE, OTHER = VERMILION, SKY
+HALO = 0.34  # radius of the disc behind a place, cells
+LEAST = 0.005  # places that are less probable are not marked
 
 
 def plot_belief(
@@ -45,14 +50,12 @@ def plot_belief(
         CogmapError: no places, or a value that is no probability.
     """
     values = _checked("plot_belief", belief)
-    ax = axes_or_new(ax)
+    ax = axes_or_new(ax, title)
     theme = theme_of(ax)
     bars = ax.bar(np.arange(len(values)), values, color=OTHER, edgecolor=theme.shade(0.8), linewidth=0.8)
-    names: list[str] = []
+    names = [f"▲ {place}" if place == true else place for place in belief]
     for bar, place in zip(bars, belief, strict=True):
-        here = true is not None and place == true
-        names.append(f"▲ {place}" if here else place)
-        if here:
+        if place == true:
             bar.set(facecolor=TRUE, hatch="///")
     if threshold is not None:
         ax.axhline(threshold, color=theme.shade(0.6), linewidth=0.8, linestyle=(0, (4, 3)))
@@ -60,8 +63,6 @@ def plot_belief(
     _turn_long_names(ax, names)
     ax.set_ylim(0.0, 1.05)
     ax.set_yticks([0.0, 0.5, 1.0])
-    if title is not None:
-        ax.set_title(title)
     return ax
 
 
@@ -89,54 +90,91 @@ def plot_belief_bars(
     """
     if most < 1:
         raise CogmapError(f"plot_belief_bars: most is {most}; use 1 or more")
-    shares = shares_of("plot_belief_bars", belief)
-    bars = {name_of(place, map_): q for place, q in list(shares.items())[:most]}
+    shares = _shares("plot_belief_bars", belief)
+    bars = {_name(place, map_): q for place, q in list(shares.items())[:most]}
     if len(shares) > most:
         bars[f"{len(shares) - most} more"] = sum(list(shares.values())[most:])
-    ax = axes_or_new(ax, size=(6.0, 1.2 + 0.32 * len(bars)))
-    _draw_bars(ax, bars, theme_of(ax))
-    if threshold is not None:
-        ax.axvline(threshold, color=theme_of(ax).shade(0.6), linewidth=0.8, linestyle=(0, (4, 3)), zorder=0.5)
-    if title is not None:
-        ax.set_title(title)
-    return ax
-
-
-def shares_of(who: str, belief: Places) -> dict[int, float]:
-    """Q(s) by place, the most probable first.
-
-    Raises:
-        CogmapError: no places, or a value that is no probability.
-    """
-    places = belief.places if isinstance(belief, Belief) else belief
-    _checked(who, places)
-    return dict(sorted(places.items(), key=lambda item: -item[1]))
-
-
-def name_of(place: int, map_: CognitiveMap | None) -> str:
-    """What a place is called: its number and, if the map says so, its position."""
-    position = None if map_ is None else map_.position(place)
-    return f"place {place}" if position is None else f"place {place} at {tuple(position)}"
-
-
-def percent(q: float) -> str:
-    """A probability in as few signs as tell it apart from 0 and 1."""
-    return ">99%" if 0.995 <= q < 1.0 - 1e-9 else "<1%" if 0.0 < q < 0.01 else f"{100 * q:.0f}%"
-
-
-def _draw_bars(ax: Axes, bars: Mapping[str, float], theme: Theme) -> None:
+    ax = axes_or_new(ax, title, size=(6.0, 1.2 + 0.32 * len(bars)))
+    theme = theme_of(ax)
     rows = np.arange(len(bars))
     ax.barh(rows, list(bars.values()), height=0.7, color=OTHER, edgecolor=theme.shade(0.8), linewidth=0.8)
     for row, q in zip(rows.tolist(), bars.values(), strict=True):
-        ax.text(q + 0.015, row, percent(q), va="center", size="small", color=theme.ink)
+        ax.text(q + 0.015, row, _percent(q), va="center", size="small", color=theme.ink)
+    if threshold is not None:
+        ax.axvline(threshold, color=theme.shade(0.6), linewidth=0.8, linestyle=(0, (4, 3)), zorder=0.5)
     ax.set_yticks(rows, list(bars), parse_math=False)
     ax.set_ylim(len(bars) - 0.4, -0.6)
     ax.set_xlim(0.0, 1.15)
     ax.set_xticks([0.0, 0.25, 0.5, 0.75, 1.0])
     ax.set_xlabel("Q(s)")
+    return ax
 
 
-def _turn_long_names(ax: Axes, names: list[str]) -> None:
+def plot_belief_map(
+    belief: Places,
+    map_: CognitiveMap,
+    *,
+    chart: Chart | None = None,
+    start: Any = (0, 0),
+    title: str | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """The map, and behind each place a disc as strong as it is probable that the agent is there.
+
+    Args:
+        belief: the agent's, or Q(s) by number of the place.
+        map_: the map, in one or two dimensions.
+        chart: the true map, drawn faintly beneath: `world.chart`, or a maze.
+        start: the place that the agent takes as its origin: of the chart, or row and column.
+        title: above the plot.
+        ax: axes to draw on; new ones unless given.
+
+    Raises:
+        CogmapError: no places, a value that is no probability, a place that the map does not have, positions of
+            more than two dimensions, or `start` is no place of the chart.
+    """
+    shares = {place: q for place, q in _shares("plot_belief_map", belief).items() if q >= LEAST}
+    picture = MapPicture.of(map_)
+    lost = sum(q for place, q in shares.items() if map_.position(place) is None and place not in picture.cells)
+    ax = axes_or_new(ax, title)
+    notes = [f"{_percent(lost)} of the belief among them"] if lost else []
+    cells = draw_map(ax, picture, *underlay(chart, start), notes=notes, margin=0.35).cells
+    for place, q in shares.items():
+        if place in cells:
+            _draw_share(ax, cells[place], q)
+    return ax
+
+
+def _draw_share(ax: Axes, cell: Cell, q: float) -> None:
+    from matplotlib.patches import Circle
+
+    theme, (row, column) = theme_of(ax), cell
+    look: dict[str, Any] = {"facecolor": (*VERMILION, q), "edgecolor": theme.line(VERMILION), "linewidth": 1.4}
+    ax.add_artist(Circle((column, row), HALO, zorder=1.5, **look))
+    # below and to the right, where no way and no wall runs
+    at = (column + RADIUS, row + 0.4)
+    write_in(ax, *at, _percent(q), box=(0.56, 0.24), cut=False, largest=10.0, ha="left", color=theme.ink, zorder=4)
+
+
+def _shares(who: str, belief: Places) -> dict[int, float]:
+    """Q(s) by place, the most probable first."""
+    places = belief.places if isinstance(belief, Belief) else belief
+    _checked(who, places)
+    return dict(sorted(places.items(), key=lambda item: -item[1]))
+
+
+def _name(place: int, map_: CognitiveMap | None) -> str:
+    """What a place is called: its number and, if the map says so, its position."""
+    position = None if map_ is None else map_.position(place)
+    return f"place {place}" if position is None else f"place {place} at {tuple(position)}"
+
+
+def _percent(q: float) -> str:
+    """A probability in as few signs as tell it apart from 0 and 1."""
+    return ">99%" if 0.995 <= q < 1.0 - 1e-9 else "<1%" if 0.0 < q < 0.01 else f"{100 * q:.0f}%"
+
+
+def _turn_long_names(ax: Axes, names: Sequence[str]) -> None:
     """Names that would run into one another stand upright."""
     from matplotlib import rcParams
     from matplotlib.font_manager import FontProperties

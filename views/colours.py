@@ -2,47 +2,29 @@
 
 from __future__ import annotations
 
-import operator
-import zlib
 from collections.abc import Hashable
+
+from ..worlds import label_colour
 
 RGB = tuple[float, float, float]
 
 BLACK: RGB = (0.0, 0.0, 0.0)
 WHITE: RGB = (1.0, 1.0, 1.0)
 
-# Okabe and Ito (2008) without black, which is left to the walls
-_PALETTE = (
-    (230, 159, 0),
-    (86, 180, 233),
-    (0, 158, 115),
-    (240, 228, 66),
-    (0, 114, 178),
-    (213, 94, 0),
-    (204, 121, 167),
-    (153, 153, 153),
-)
-_TINTS = (0.0, 0.5, -0.35)  # towards white (> 0) or black (< 0)
-
-ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (
-    (red / 255, green / 255, blue / 255) for red, green, blue in _PALETTE
-)
-
 
 def sight_colour(label: Hashable) -> RGB:
-    """Red, green and blue of a label, each from 0 to 1.
+    """Red, green and blue of a label, each from 0 to 1: its `label_colour`."""
+    red, green, blue = label_colour(label)
+    return red / 255, green / 255, blue / 255
 
-    The whole numbers 0 to 23 have colours of their own, then they repeat; other labels are hashed.
-    """
-    try:
-        number = operator.index(label)  # type: ignore[arg-type]
-        index, tint = number % len(_PALETTE), _TINTS[number // len(_PALETTE) % len(_TINTS)]
-    except TypeError:
-        code = zlib.crc32(str(label).encode("utf-8", "replace"))
-        index, tint = code % len(_PALETTE), (code >> 8) % 64 / 64 * 0.95 - 0.35
-    towards = 255 if tint > 0 else 0
-    red, green, blue = (int(part * (1 - abs(tint)) + towards * abs(tint)) / 255 for part in _PALETTE[index])
-    return red, green, blue
+
+# Okabe and Ito (2008) without black, which is left to the walls
+ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = map(sight_colour, range(8))
+
+
+def hexed(colour: RGB) -> str:
+    """The colour as `#rrggbb`."""
+    return "#" + "".join(f"{round(255 * part):02x}" for part in colour)
 
 
 def luminance(colour: RGB) -> float:
@@ -71,8 +53,5 @@ def ink_on(colour: RGB) -> str:
 def against(colour: RGB, paper: RGB, *, least: float = 3.0) -> RGB:
     """The colour, made darker or lighter until it has the contrast `least` with `paper`."""
     towards = BLACK if ink_on(paper) == "black" else WHITE
-    for share in range(20):
-        shade = mixed(towards, colour, share / 20)
-        if contrast(shade, paper) >= least:
-            return shade
-    return towards
+    shades = (mixed(towards, colour, share / 20) for share in range(20))
+    return next((shade for shade in shades if contrast(shade, paper) >= least), towards)

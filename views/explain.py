@@ -232,7 +232,7 @@ def _weighed(plan: Plan, policy: int) -> WeighedPolicy:
     model, actions = plan.model, plan.policies[policy].tolist()
     q, row = model.belief, plan.expected_free_energy.row(policy)
     for action in actions:
-        q = model.B[:, :, action] @ q
+        q = model.B.predicted(q[None], np.zeros(1, dtype=np.int64), np.array([action]))[0]
     place = int(model.places[q.argmax()])
     return WeighedPolicy(
         index=policy,

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..model import Factor, FactorGraph, Variable
-
-Point = tuple[float, float]
+from .layout import Point, spread
 
 ABOVE = ("p", "s")
 """Rows of the cognitive map from the top; other names follow in the order they were declared."""
@@ -39,14 +38,13 @@ def layout_of(graph: FactorGraph, variables: Sequence[Variable], factors: Sequen
     """The layout of a part of a graph: factors over `variables` only."""
     if any(variable.time is not None for variable in variables):
         return _in_time(graph, variables, factors)
-    from .graph_spread import spread
-
-    return spread(variables, factors)
+    names = [variable.name for variable in variables]
+    points = spread(names, ((factor.label, variable.name) for factor in factors for variable in factor.scope))
+    return GraphLayout({name: points.pop(name) for name in names}, points, {})
 
 
 def _in_time(graph: FactorGraph, variables: Sequence[Variable], factors: Sequence[Factor]) -> GraphLayout:
-    columns = {time: float(time) for time in sorted({v.time for v in variables if v.time is not None})}
-    columns = {time: float(x) for x, time in enumerate(columns)}
+    columns = {time: float(x) for x, time in enumerate(sorted({v.time for v in variables if v.time is not None}))}
     switches = _switches(graph, variables, factors)
     rows, at_switch = _rows(graph, variables, switches)
     points: dict[str, Point] = {}

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..model import Factor, FactorGraph, Variable
-from ..model.errors import CogmapError
-from .axes import axes_or_new, write_in
+from ..model import CogmapError, Factor, FactorGraph, Variable
+from .axes import axes_or_new, without_ticks, write_in
 from .colours import SKY, ink_on, mixed
-from .graph_layout import GraphLayout, Point, layout_of
+from .graph_layout import GraphLayout, layout_of
+from .layout import Point
 from .theme import Theme, theme_of
 
 if TYPE_CHECKING:
@@ -56,13 +56,8 @@ def plot_factor_graph(
     (low_x, high_x), (low_y, high_y) = ((min(part), max(part)) for part in zip(*points, strict=True))
     below = 0.75 if layout.columns else 0.35
     limits = (low_x - 0.45, high_x + 0.45, low_y - below, high_y + 0.4)
-    ax = axes_or_new(ax, size=_size(limits))
-    ax.set_xlim(*limits[:2])
-    ax.set_ylim(*limits[2:])
-    ax.set_aspect("equal")
-    ax.set_xticks([])
-    ax.set_yticks([])
-    ax.set_axis_off()
+    ax = axes_or_new(ax, title, size=_size(limits))
+    without_ticks(ax, *limits)
     theme = theme_of(ax)
     _draw_edges(ax, factors, layout, theme)
     in_time = bool(layout.columns)
@@ -72,8 +67,6 @@ def plot_factor_graph(
         ends = [layout.variables[variable.name] for variable in factor.scope]
         _draw_factor(ax, factor, layout.factors[factor.label], ends, theme, in_time=in_time)
     _draw_times(ax, layout.columns, limits[2] + 0.14, cut, theme)
-    if title is not None:
-        ax.set_title(title)
     return ax
 
 

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..agent import Agent
-from ..model.errors import CogmapError
-from ..model.files import make_folder, write_through, write_whole
-from .axes import Cell, axes_or_new, flat
-from .growth_news import GrowthFrame, caption, news_of
-from .map_picture import PlacePicture, picture_of
-from .map_plot import RADIUS, draw_picture
-from .maze_plot import Sights
+from ..model import CogmapError, GrowthEvent, make_folder, write_through, write_whole
+from ..worlds import Chart
+from .axes import Cell, axes_or_new
+from .colours import VERMILION
+from .map_picture import MapPicture, MapWatch
+from .map_plot import draw_map, underlay
+from .picture import RADIUS
 from .theme import theme_of
 
 if TYPE_CHECKING:
@@ -24,6 +27,25 @@ if TYPE_CHECKING:
 HERE = RADIUS + 0.08  # radius of the ring around the place where the agent believes to be
 PIXELS = 100  # an inch
 
+_WORDS = {"place": "imagined", "bind": "bound", "unbind": "unbound", "retract": "taken back"}
+
+
+@dataclass(frozen=True, slots=True)
+class GrowthFrame:
+    """One moment of a growing map.
+
+    Attributes:
+        step: of the agent's last observation.
+        delta: what has changed in the map since the frame before, as `MapPicture.apply` takes it.
+        place: where the agent believed to be.
+        news: what had been added since the frame before, in words.
+    """
+
+    step: int
+    delta: dict[str, Any]
+    place: int
+    news: str
+
 
 class GrowthFrames:
     """Pictures of an agent's map, one a step; what did not change from one to the next is kept once.
@@ -31,17 +53,19 @@ class GrowthFrames:
     Example: `frames = GrowthFrames()`, then `frames.add(agent)` after each step, and `frames.save_gif("map.gif")`.
 
     Args:
-        sights: the rooms of the true maze, drawn faintly beneath; label by (row, column).
-        start: row and column of the place that the agent takes as its origin.
+        chart: the true map, drawn faintly beneath: `world.chart`, or a maze.
+        start: the place that the agent takes as its origin: of the chart, or row and column.
 
     Attributes:
         frames: the frames so far.
     """
 
-    def __init__(self, *, sights: Sights | None = None, start: Sequence[float] = (0, 0)) -> None:
+    def __init__(self, *, chart: Chart | None = None, start: Any = (0, 0)) -> None:
         self.frames: list[GrowthFrame] = []
-        self._sights, self._start = sights, start
+        self._world, self._origin = underlay(chart, start)
+        self._watch: MapWatch | None = None
         self._logged = 0
+        self._cells: set[Cell] = set()  # where there is a place in any of the frames
 
     def __len__(self) -> int:
         return len(self.frames)
@@ -52,11 +76,19 @@ class GrowthFrames:
         Raises:
             CogmapError: the agent has seen nothing yet, or its map has more than two dimensions.
         """
-        place = agent.belief.place
-        before = self.frames[-1].picture if self.frames else None
-        news = news_of(agent.map.growth[self._logged :])
+        place, news = agent.belief.place, _news(agent.map.growth[self._logged :])
         self._logged = len(agent.map.growth)
-        self.frames.append(GrowthFrame(agent.steps - 1, picture_of(agent.map, before=before), place, news))
+        self._watch = self._watch or MapWatch(agent.map)
+        self.frames.append(GrowthFrame(agent.steps - 1, self._watch.delta(), place, news))
+        self._cells.update(self._watch.picture.drawn(self._origin).cells.values())
+
+    def maps(self) -> Iterator[MapPicture]:
+        """The map at each frame: always the same object, changed in place."""
+        if self._watch is not None:
+            picture = self._watch.picture.blank()
+            for frame in self.frames:
+                picture.apply(frame.delta)
+                yield picture
 
     def plot(self, index: int = -1, *, title: str | None = None, ax: Axes | None = None) -> Axes:
         """One frame, on axes that have room for all of them; the ring is where the agent believes to be.
@@ -71,11 +103,13 @@ class GrowthFrames:
         """
         if not -len(self) <= index < len(self):
             raise CogmapError(f"growth frames: there is no frame {index}; there are {len(self)}, call add(agent) first")
-        frame = self.frames[index]
+        index %= len(self)
+        frame, picture = self.frames[index], next(islice(self.maps(), index, None))
         ax = axes_or_new(ax, size=(6.0, 6.0))
-        draw_picture(ax, frame.picture, sights=self._sights, start=self._start, room=self._cells())
-        _draw_here(ax, frame.picture.places.get(frame.place), self._start)
-        ax.set_title(caption(frame) if title is None else title, fontsize="medium")
+        cells = draw_map(ax, picture, self._world, self._origin, room=self._cells).cells
+        if frame.place in cells:
+            _draw_here(ax, *cells[frame.place])
+        ax.set_title(_caption(frame, picture) if title is None else title, fontsize="medium")
         return ax
 
     def save_gif(self, path: str | PathLike[str], *, seconds: float = 0.5, last: float = 2.0) -> Path:
@@ -132,12 +166,6 @@ class GrowthFrames:
         if not self.frames:
             raise CogmapError("growth frames: there are none yet; call add(agent) after each step")
 
-    def _cells(self) -> list[Cell]:
-        """Where there is a place in any of the frames."""
-        down, right = flat(self._start)
-        cells = {place.cell for frame in self.frames for place in frame.picture.places.values()}
-        return [(row + down, column + right) for row, column in cells]
-
     def _draw(self, figure: Figure, index: int) -> None:
         figure.clear()
         self.plot(index, ax=figure.add_subplot())
@@ -157,13 +185,26 @@ def _png(figure: Figure) -> bytes:
     return buffer.getvalue()
 
 
-def _draw_here(ax: Axes, place: PlacePicture | None, start: Sequence[float]) -> None:
+def _draw_here(ax: Axes, row: float, column: float) -> None:
     from matplotlib.patches import Circle
 
-    from .colours import VERMILION
-    from .map_plot import shifted
+    colour = theme_of(ax).line(VERMILION)
+    ax.add_artist(Circle((column, row), HERE, fill=False, edgecolor=colour, linewidth=2.5, zorder=4))
 
-    if place is not None:
-        row, column = shifted(place, start).cell
-        colour = theme_of(ax).line(VERMILION)
-        ax.add_artist(Circle((column, row), HERE, fill=False, edgecolor=colour, linewidth=2.5, zorder=4))
+
+def _caption(frame: GrowthFrame, picture: MapPicture) -> str:
+    """The step, the size of the map, and what is new, in two lines."""
+    size = len(picture.places)
+    places = f"{size} place{'s' if size != 1 else ''}, {picture.visited} visited"
+    return f"step {frame.step}: {places}\n{frame.news or 'nothing new'}"
+
+
+def _news(events: Sequence[GrowthEvent]) -> str:
+    """What the events added, such as "2 imagined, new sight 7"."""
+    counts = Counter[str]()
+    for event in events:
+        if event.kind in _WORDS:
+            counts[_WORDS[event.kind]] += event.index if event.kind == "retract" else 1
+    sights = [str(event.label) for event in events if event.kind == "sight"]
+    parts = [f"{count} {what}" for what, count in counts.items() if count]
+    return ", ".join([*parts, *([f"new sight {', '.join(sights)[:24]}"] if sights else [])])

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..model import CognitiveMap
-from ..model.errors import CogmapError
+from ..model import CogmapError, CognitiveMap
 from ..planning import Plan
 from .axes import Cell, as_grid, axes_or_new, cell_points, flat
 from .colours import BLUE, RGB, SKY, contrast, mixed
+from .map_picture import MapPicture
 from .theme import Theme, theme_of
 
 if TYPE_CHECKING:
@@ -44,9 +44,8 @@ def policy_paths(
     Raises:
         CogmapError: positions of more than two dimensions.
     """
-    down, right = flat(start)
-    positions = [map_.position(place) if place >= 0 else None for place in plan.places.tolist()]
-    cells = [None if at is None else (flat(at)[0] + down, flat(at)[1] + right) for at in positions]
+    drawn = MapPicture.of(map_).drawn(flat(start)).cells
+    cells = [drawn.get(place) for place in plan.places.tolist()]
     shares: defaultdict[tuple[Cell, ...], float] = defaultdict(float)
     for first in np.flatnonzero(plan.model.belief >= least).tolist():
         for policy in np.flatnonzero(plan.probability >= least / 10).tolist():
@@ -69,7 +68,7 @@ def plot_policies(paths: Paths, *, title: str | None = None, ax: Axes | None = N
         paths: the cells (row, column) of each path, and P(policy), as `policy_paths` has them; those of several
             policies may be added up.
         title: above the plot.
-        ax: axes with a grid of cells to draw on, as `plot_maze` and `plot_map` leave them; new ones unless given.
+        ax: axes with a grid of cells to draw on, as `plot_world` and `plot_map` leave them; new ones unless given.
 
     Raises:
         CogmapError: a path without cells, or cells of more than two dimensions.
@@ -77,12 +76,10 @@ def plot_policies(paths: Paths, *, title: str | None = None, ax: Axes | None = N
     if not all(paths):
         raise CogmapError("plot_policies: a path has no cells; give at least the one where the agent is")
     ways, ends = _shares([([flat(cell) for cell in path], p) for path, p in paths.items()])
-    if ax is None:
-        ax = axes_or_new(None)
+    new, ax = ax is None, axes_or_new(ax, title)
+    if new:
         as_grid(ax, [flat(cell) for path in paths for cell in path] or [(0.0, 0.0)])
     _draw(ax, ways, ends, theme_of(ax))
-    if title is not None:
-        ax.set_title(title)
     return ax
 
 

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
 from ..agent import Agent, StepRecord
-from ..model.errors import CogmapError
-from ..model.labels import decode, encode
+from ..model import CogmapError, decode, encode
+from ..worlds import Chart, Place
 from . import recording_file
+from .map_picture import KNOWN, MapPicture, MapWatch
 from .recording_check import check
-from .recording_map import KNOWN, MapPicture, MapWatch
 from .recording_plan import plan_frame
-from .recording_window import Window, window_frames
+from .recording_upgrade import upgraded
+from .recording_window import WindowWatch
+from .recording_world import Places
+from .terms import term_json
 
 DIGITS = 4
 MOST_PLACES = 8
 """Places of the belief that are kept, the most probable ones."""
-
-Room = Sequence[int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,13 +36,18 @@ class Recording:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Recording:
-        """The recording that `save` wrote.
+        """The recording that `save` wrote, now or in an earlier version.
 
         Raises:
             CogmapError: no such file, no recording, truncated, damaged, or of another schema.
         """
         data = recording_file.read(path)
-        check(data, where=str(path))
+        try:
+            data = upgraded(data)
+            check(data)
+        except (AttributeError, LookupError, TypeError, ValueError) as error:
+            why = f"{type(error).__name__}: {error}"
+            raise CogmapError(f"recording: {path} is damaged ({why}); record it again") from error
         return cls(data)
 
     def save(self, path: str | PathLike[str]) -> None:
@@ -64,12 +70,22 @@ class Recording:
 
     @property
     def sights(self) -> list[Hashable]:
-        """Labels of the sights, by number."""
-        return [decode(label) for label in self.data["sights"]]
+        """Labels of the first sensor, by number."""
+        return next(iter(self.labels.values()), [])
+
+    @property
+    def labels(self) -> dict[str, list[Hashable]]:
+        """Labels of every sensor, by its name and by number."""
+        return {name: [decode(label) for label in labels] for name, labels in self.data["sensors"].items()}
+
+    @property
+    def places(self) -> list[Hashable]:
+        """What the true places are called, by number."""
+        return [decode(place) for place in self.data["places"]]
 
     def maps(self) -> Iterator[MapPicture]:
         """The map after each step: always the same object, changed in place."""
-        picture = MapPicture()
+        picture = MapPicture.recorded(self.data)
         for frame in self.frames:
             picture.apply(frame["map"])
             yield picture
@@ -82,26 +98,18 @@ class Recorder:
     """Records an agent; call `add` after every `agent.step`.
 
     Args:
-        sights: label of each true room by (row, column), where they are to be shown.
+        chart: the true map, where it is to be shown: `world.chart`, or a maze.
         title: what the walk is called.
         goals: labels of the preferred sights, to be marked.
     """
 
-    def __init__(
-        self,
-        sights: Mapping[tuple[int, int], Hashable] | None = None,
-        *,
-        title: str = "",
-        goals: Iterable[Hashable] = (),
-    ) -> None:
-        self._maze = None if sights is None else [[*map(int, room), encode(label)] for room, label in sights.items()]
+    def __init__(self, chart: Chart | None = None, *, title: str = "", goals: Iterable[Hashable] = ()) -> None:
+        self._places = Places(chart)
         self._title = str(title)
         self._goals = [encode(label) for label in goals]
         self._agent: Agent | None = None
         self._frames: list[dict[str, Any]] = []
-        self._map = MapWatch()
-        self._windows: list[Window] = []
-        self._origin: list[int] | None = None
+        self._origin: int | None = None
 
     def __len__(self) -> int:
         return len(self._frames)
@@ -110,40 +118,39 @@ class Recorder:
         self,
         agent: Agent,
         *,
-        position: Room | None = None,
-        closed_rooms: Iterable[Room] = (),
-        closed_doors: Iterable[tuple[Room, Room]] = (),
+        place: Place | None = None,
+        closed_rooms: Iterable[Place] = (),
+        closed_doors: Iterable[tuple[Place, Place]] = (),
     ) -> None:
         """Record the step that the agent has just made, before its action is carried out.
 
         Args:
             agent: always the same.
-            position: the true room it is in, for showing only.
-            closed_rooms: rooms closed at present.
-            closed_doors: doors closed by themselves, as pairs of rooms.
+            place: the true place it is in, for showing only.
+            closed_rooms: places closed at present.
+            closed_doors: doors closed by themselves, as pairs of places.
 
         Raises:
-            CogmapError: another agent, one that has made no step since the last call, or a label that JSON has not.
+            CogmapError: another agent, one that has made no step since the last call, a place that the chart does
+                not have, or a label that JSON has not.
         """
         record = self._fresh(agent)
         encode(record.sight)  # refuses now what could not be written later
         frame = _senses(agent, record) | _belief(record)
-        frame["map"] = self._map.delta(agent)
-        frame["plan"] = plan_frame(agent.plan)
-        self._windows.append(agent.window)
-        if position is not None:
-            frame["at"] = [int(part) for part in position]
-            if record.step == 0:  # the agent calls the room where it wakes the origin
+        if place is not None:
+            frame["at"] = self._places.number(place)
+            if record.step == 0:  # the agent calls the place where it wakes the origin
                 self._origin = frame["at"]
-        if rooms := sorted([int(x) for x in room] for room in closed_rooms):
+        if rooms := self._places.numbers(closed_rooms):
             frame["closed_rooms"] = rooms
-        if doors := sorted([[int(x) for x in room] for room in door] for door in closed_doors):
+        if doors := sorted(self._places.numbers(door) for door in closed_doors):
             frame["closed_doors"] = doors
+        frame |= {"map": self._map.delta(), "plan": plan_frame(agent.plan), "window": self._window.delta(agent.graph)}
         self._frames.append(frame)
 
     def _fresh(self, agent: Agent) -> StepRecord:
         if self._agent is None:
-            self._agent = agent
+            self._agent, self._map, self._window = agent, MapWatch(agent.map), WindowWatch()
         if agent is not self._agent:
             raise CogmapError("recorder: this is another agent; use a recorder of its own for each")
         if not agent.trace:
@@ -160,28 +167,26 @@ class Recorder:
         """
         if self._agent is None or not self._frames:
             raise CogmapError("recorder: nothing was recorded; call add after agent.step")
-        map_, settings = self._agent.map, self._agent.settings
+        motions = self._agent.map.motions
         return Recording(
             {
                 "format": recording_file.FORMAT,
                 "schema": recording_file.SCHEMA,
                 "title": self._title,
                 "motions": {
-                    "names": list(map_.motions.names),
-                    "displacements": [list(vector) for vector in map_.motions.displacements],
-                    "stay": map_.motions.stay,
+                    "names": list(motions.names),
+                    "displacements": [list(vector) for vector in motions.displacements],
+                    "stay": motions.stay,
                 },
-                "settings": settings.to_dict(),
-                "terms": list(self._agent.plan.expected_free_energy.names),
+                "settings": self._agent.settings.to_dict(),
+                "terms": [term_json(term) for term in self._agent.plan.expected_free_energy.terms],
                 "known": list(KNOWN),
-                "sights": [encode(label) for label in map_.sights],
-                "maze": self._maze,
+                "sensors": {"sight": [encode(label) for label in self._agent.map.sights]},
+                "places": self._places.to_json(),
+                "world": self._places.world,
                 "origin": self._origin,
                 "goals": self._goals,
-                "frames": [
-                    {**frame, "window": window}
-                    for frame, window in zip(self._frames, window_frames(map_, self._windows), strict=True)
-                ],
+                "frames": list(self._frames),
             }
         )
 
@@ -193,7 +198,7 @@ class Recorder:
 def _senses(agent: Agent, record: StepRecord) -> dict[str, Any]:
     return {
         "step": record.step,
-        "sight": agent.map.sights.index(record.sight),
+        "seen": {"sight": agent.map.sights.index(record.sight)},
         "open": [int(is_open) for is_open in record.open],
         "grown": [
             [event.kind, event.index, event.source, event.action] for event in record.grown if event.kind != "time"
@@ -204,12 +209,10 @@ def _senses(agent: Agent, record: StepRecord) -> dict[str, Any]:
 
 def _belief(record: StepRecord) -> dict[str, Any]:
     places = [[place, round(q, DIGITS)] for place, q in list(record.places.items())[:MOST_PLACES]]
+    numbers = ("certainty", "doubt", "moved", "free_energy", "complexity", "accuracy", "evidence")
     return {
         "belief": places,
         "rest": round(max(0.0, 1.0 - sum(q for _, q in places)), DIGITS),
         "certain": record.certain,
-        **{
-            name: round(float(getattr(record, name)), DIGITS)
-            for name in ("certainty", "doubt", "moved", "free_energy", "complexity", "accuracy", "evidence")
-        },
+        **{name: round(float(getattr(record, name)), DIGITS) for name in numbers},
     }

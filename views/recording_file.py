@@ -9,13 +9,15 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, cast
 
-from ..model.errors import CogmapError
-from ..model.files import write_whole
+from ..model import CogmapError, write_whole
 
 FORMAT = "cogmap recording"
 
-SCHEMA = 1
+SCHEMA = 2
 """Version of the layout of the file."""
+
+READ = (1, 2)
+"""Schemas that are read."""
 
 
 def pack(data: dict[str, Any], *, packed: bool = False) -> bytes:
@@ -41,7 +43,7 @@ def write(data: dict[str, Any], path: str | PathLike[str]) -> None:
 
 
 def read(path: str | PathLike[str]) -> dict[str, Any]:
-    """What `write` wrote; `schema` fits, the rest is as it comes.
+    """What `write` wrote; `schema` is one of `READ`, the rest is as it comes.
 
     Raises:
         CogmapError: no such file, no recording, truncated, or of another schema.
@@ -58,6 +60,7 @@ def read(path: str | PathLike[str]) -> dict[str, Any]:
     if not isinstance(data, dict) or cast(dict[str, Any], data).get("format") != FORMAT:
         raise CogmapError(f"recording: {path} is JSON, but no recording; give a file that --trace wrote")
     found: dict[str, Any] = data
-    if (schema := found.get("schema")) != SCHEMA:
-        raise CogmapError(f"recording: {path} has schema {schema!r}, this cogmap reads {SCHEMA}; record it again")
+    if (schema := found.get("schema")) not in READ:
+        known = " and ".join(map(str, READ))
+        raise CogmapError(f"recording: {path} has schema {schema!r}, this cogmap reads {known}; record it again")
     return found

@@ -52,7 +52,7 @@ def _best(plan: Plan, cost: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray
 def _paths(plan: Plan, best: np.ndarray[Any, np.dtype[np.int64]]) -> np.ndarray[Any, np.dtype[np.int64]]:
     """`[n, L + 1]` the most probable places along each policy, from the most probable one now."""
     model = plan.model
-    likely = model.B.argmax(axis=0)
+    likely = model.B.dense.argmax(axis=0)
     actions = plan.policies[best]
     here = np.full(len(best), int(model.belief.argmax()))
     paths = [here]

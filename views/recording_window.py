@@ -2,61 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ..inference import infer
-from ..model import CognitiveMap, FactorGraph, Slice, encode, window_graph
+from ..model import Factor, FactorGraph, Variable, encode
 
 DIGITS = 4
 
-Window = Sequence[Slice]
 
-
-def window_frames(map_: CognitiveMap, windows: Iterable[Window]) -> list[dict[str, Any]]:
-    """Each of the windows that followed one another, as JSON values.
+class WindowWatch:
+    """Tells what is new in the windows that follow one another.
 
     Variables and factors are told once, at the step that added them. The graph of a step is the prior of time
     `since`, the other factors of later times, and the variables in their scopes. `tops` has the latent variables whose
     most probable label, or its probability, is not what was told last.
     """
-    told: set[str] = set()
-    tops: dict[str, list[Any]] = {}
-    last = -1
-    frames: list[dict[str, Any]] = []
-    for window in windows:
-        new = next(i for i, slice_ in enumerate(window) if slice_.step > last)
-        graph = window_graph(map_, window[max(new - 1, 0) :])
-        now = _tops(map_, window)
-        frames.append(
-            {
-                "since": window[0].step,
-                "variables": _variables(graph, told),
-                "factors": _factors(graph, told),
-                "tops": [[name, *top] for name, top in now.items() if tops.get(name) != top],
-            }
-        )
-        tops, last = now, window[-1].step
-    return frames
+
+    def __init__(self) -> None:
+        self._told: set[str] = set()
+        self._tops: dict[str, list[Any]] = {}
+
+    def delta(self, graph: FactorGraph) -> dict[str, Any]:
+        """What is new since the last call, as JSON values."""
+        variables = [variable for variable in graph.variables if variable.name not in self._told]
+        factors = [factor for factor in graph.factors if factor.label not in self._told]
+        self._told.update([*(variable.name for variable in variables), *(factor.label for factor in factors)])
+        before, self._tops = self._tops, _tops(graph)
+        return {
+            "since": min(variable.time or 0 for variable in graph.variables),
+            "variables": [_variable(variable) for variable in variables],
+            "factors": [_factor(factor) for factor in factors],
+            "tops": [[name, *top] for name, top in self._tops.items() if before.get(name) != top],
+        }
 
 
-def _variables(graph: FactorGraph, told: set[str]) -> list[list[Any]]:
-    """Name and time of those that are new, and the label of those observed."""
-    new = [variable for variable in graph.variables if variable.name not in told]
-    told.update(variable.name for variable in new)
-    return [[v.name, v.time, *([encode(v.domain[0])] if v.observed else [])] for v in new]
+def _variable(variable: Variable) -> list[Any]:
+    """Name, time, and the label where it is observed."""
+    return [variable.name, variable.time, *([encode(variable.domain[0])] if variable.observed else [])]
 
 
-def _factors(graph: FactorGraph, told: set[str]) -> list[list[Any]]:
-    """Symbol, kind and scope of those that are new."""
-    new = [factor for factor in graph.factors if factor.label not in told]
-    told.update(factor.label for factor in new)
-    return [[factor.name, factor.kind, *(variable.name for variable in factor.scope)] for factor in new]
+def _factor(factor: Factor) -> list[Any]:
+    """Symbol, kind and scope."""
+    return [factor.name, factor.kind, *(variable.name for variable in factor.scope)]
 
 
-def _tops(map_: CognitiveMap, window: Window) -> dict[str, list[Any]]:
+def _tops(graph: FactorGraph) -> dict[str, list[Any]]:
     """The most probable label of every latent variable, and its probability."""
-    graph = window_graph(map_, window)
     posterior, tops = infer(graph), dict[str, list[Any]]()
     for variable in graph.variables:
         if not variable.observed:

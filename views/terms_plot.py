@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import cycle, groupby
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 from ..planning import Plan
 from .axes import axes_or_new, legend_below
-from .terms import HATCHES, colour_of, signed_label
+from .terms import NOTHING, bar_look, signed_label
 from .theme import Theme, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-NOTHING = 1e-6  # nats; a term that is smaller in all that are shown has no bar
 LONGEST = 34  # signs of a policy's name
 
 
@@ -39,7 +38,7 @@ def plot_terms(plan: Plan, *, most: int = 8, title: str | None = None, ax: Axes 
     if most < 1:
         raise CogmapError(f"plot_terms: most is {most}; use 1 or more")
     shown = best_policies(plan, most)
-    ax = axes_or_new(ax, size=(8.0, 1.9 + 0.36 * len(shown)))
+    ax = axes_or_new(ax, title, size=(8.0, 1.9 + 0.36 * len(shown)))
     theme = theme_of(ax)
     _draw_terms(ax, plan, shown, theme)
     _draw_sums(ax, plan, shown, theme)
@@ -49,8 +48,6 @@ def plot_terms(plan: Plan, *, most: int = 8, title: str | None = None, ax: Axes 
     ax.set_ylim(len(shown) - 0.4, -0.6)
     ax.set_xlabel("expected free energy (nats)")
     legend_below(ax)
-    if title is not None:
-        ax.set_title(title)
     return ax
 
 
@@ -74,13 +71,12 @@ def _draw_terms(ax: Axes, plan: Plan, shown: Sequence[int], theme: Theme) -> Non
     rows = np.arange(len(shown))
     ends = {-1.0: np.zeros(len(shown)), 1.0: np.zeros(len(shown))}
     energy = plan.expected_free_energy
-    for term, hatch in zip(energy.terms, cycle(HATCHES)):
+    for number, term in enumerate(energy.terms):
         values = term.sign * energy[term.name][shown]
         if np.abs(values).max() <= NOTHING:
             continue
         left = np.where(values < 0.0, ends[-1.0], ends[1.0])
-        look: dict[str, Any] = {"color": colour_of(term), "hatch": hatch, "edgecolor": theme.paper, "linewidth": 0.6}
-        ax.barh(rows, values, left=left, height=0.7, label=signed_label(term), **look)
+        ax.barh(rows, values, left=left, height=0.7, label=signed_label(term), **bar_look(term, number, theme))
         ends[-1.0] += np.minimum(values, 0.0)
         ends[1.0] += np.maximum(values, 0.0)
 

@@ -8,8 +8,8 @@ from .builtin import MAZES
 from .drawing import draw, label_colour
 from .environment import MazeEnv
 from .errors import WorldError
-from .generate import comb, hall, random_maze, rings, spiral
-from .graph import POSES, GraphWorld, Layout, read_graph
+from .generate import comb, hall, office, random_maze, rings, spiral
+from .graph import POSES, GraphWorld, Layout, geometric, portal_hall, read_graph, ring, torus
 from .labyrinth import labyrinth
 from .load import load_world, register_worlds, world_of
 from .maze import Door, Label, Maze, Position
@@ -20,6 +20,7 @@ from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place
 from .routes import shortest_path, walk_length
 from .text import format_maze, parse_maze
 from .text_styles import FORMATS, read_maze
+from .wrappers import StateWorld, UnseenWays, frozen_lake
 
 __all__ = [
     "FORMATS",
@@ -46,6 +47,8 @@ __all__ = [
     "Place",
     "PlaceEnv",
     "Position",
+    "StateWorld",
+    "UnseenWays",
     "World",
     "WorldError",
     "behaviour",
@@ -56,20 +59,26 @@ __all__ = [
     "draw",
     "format_maze",
     "frontier_walk",
+    "frozen_lake",
+    "geometric",
     "hall",
     "label_colour",
     "labyrinth",
     "load_world",
     "offered",
+    "office",
     "parse_maze",
     "place_of",
+    "portal_hall",
     "random_maze",
     "read_graph",
     "read_maze",
     "register_worlds",
+    "ring",
     "rings",
     "shortest_path",
     "spiral",
+    "torus",
     "tour",
     "walk_length",
     "world_of",

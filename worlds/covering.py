@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 State = tuple[int, int]  # place, visited places
 Ways = Sequence[Sequence[int]]
@@ -20,7 +24,11 @@ def search(ahead: Ways, start: int, *, limit: int) -> list[int] | None:
         start: the first place.
         limit: most states to expand.
     """
-    bound = _Bound(ahead)
+    import networkx as nx  # slow to import
+
+    graph = nx.DiGraph((at, to) for at, row in enumerate(ahead) for to in row)
+    graph.add_nodes_from(range(len(ahead)))
+    bound = _Bound(graph)
     everything = (1 << len(ahead)) - 1
     first: State = (start, 1 << start)
     cost: dict[State, int] = {first: 0}
@@ -30,7 +38,7 @@ def search(ahead: Ways, start: int, *, limit: int) -> list[int] | None:
     while queue:
         _, _, state = heapq.heappop(queue)
         if state[1] == everything:
-            return _walk(ahead, before, state)
+            return _walk(graph, before, state)
         if state in done:
             continue
         if len(done) >= limit:
@@ -95,12 +103,16 @@ class _Bound:
     for each place of the colour that is left in excess.
     """
 
-    def __init__(self, ahead: Ways) -> None:
-        self._near = [_distances(ahead, place) for place in range(len(ahead))]
+    def __init__(self, graph: nx.DiGraph[int]) -> None:
+        import networkx as nx
+
+        count = len(graph)
+        far = dict(nx.all_pairs_shortest_path_length(graph))
+        self._near = [[far[a].get(b, count) for b in range(count)] for a in range(count)]
         columns = zip(*self._near, strict=True)
         self._either = [list(map(min, row, column)) for row, column in zip(self._near, columns, strict=True)]
-        self._everything = (1 << len(ahead)) - 1
-        self._dark = _dark(ahead)
+        self._everything = (1 << count) - 1
+        self._dark = _bits_of(nx.bipartite.color(graph)) if nx.is_bipartite(graph) else None
         self._trees: dict[int, int] = {}
 
     def __call__(self, state: State) -> int:
@@ -108,9 +120,10 @@ class _Bound:
         left = self._everything & ~visited
         if not left:
             return 0
+        if left not in self._trees:
+            self._trees[left] = _spanning_tree(self._either, list(_bits(left)))
         near = self._near[here]
-        to_first = min(near[place] for place in _bits(left))
-        return max(to_first + self._tree(left), self._alternating(here, left))
+        return max(min(near[place] for place in _bits(left)) + self._trees[left], self._alternating(here, left))
 
     def _alternating(self, here: int, left: int) -> int:
         if self._dark is None:
@@ -118,11 +131,6 @@ class _Bound:
         same = left & (self._dark if self._dark >> here & 1 else ~self._dark)
         other = left & ~same
         return max(2 * other.bit_count() - 1, 2 * same.bit_count())
-
-    def _tree(self, left: int) -> int:
-        if left not in self._trees:
-            self._trees[left] = _spanning_tree(self._either, list(_bits(left)))
-        return self._trees[left]
 
 
 def _spanning_tree(near: Ways, places: list[int]) -> int:
@@ -139,34 +147,6 @@ def _spanning_tree(near: Ways, places: list[int]) -> int:
     return total
 
 
-def _distances(ahead: Ways, start: int) -> list[int]:
-    far = [len(ahead)] * len(ahead)
-    far[start] = 0
-    order = [start]
-    for place in order:
-        for other in ahead[place]:
-            if far[other] == len(ahead):
-                far[other] = far[place] + 1
-                order.append(other)
-    return far
-
-
-def _dark(ahead: Ways) -> int | None:
-    """The places of one of two colours that every way changes, as bits; None if there are no such colours."""
-    beside: list[set[int]] = [set(row) for row in ahead]
-    for place, row in enumerate(ahead):
-        for other in row:
-            beside[other].add(place)
-    colour, order = {0: 0}, [0]
-    for place in order:
-        new = [other for other in beside[place] if other not in colour]
-        colour.update((other, 1 - colour[place]) for other in new)
-        order.extend(new)
-    if any(colour[place] == colour[other] for place, row in enumerate(ahead) for other in row):
-        return None
-    return sum(1 << place for place, dark in colour.items() if dark)
-
-
 def _bits(mask: int) -> Iterator[int]:
     while mask:
         low = mask & -mask
@@ -174,26 +154,18 @@ def _bits(mask: int) -> Iterator[int]:
         mask ^= low
 
 
-def _walk(ahead: Ways, before: dict[State, State], last: State) -> list[int]:
+def _bits_of(colour: dict[int, int]) -> int:
+    return sum(1 << place for place, dark in colour.items() if dark)
+
+
+def _walk(graph: nx.DiGraph[int], before: dict[State, State], last: State) -> list[int]:
+    """The walk that ends in `last`: between first visits, by a shortest way through what was visited."""
+    import networkx as nx
+
     walk = [last[0]]
     while last in before:
-        previous = before[last]
-        walk.extend(_backwards(ahead, previous, last[0]))
-        last = previous
+        here, visited = before[last]
+        through = graph.subgraph([*_bits(visited), last[0]])
+        walk.extend(nx.shortest_path(through, here, last[0])[-2::-1])
+        last = here, visited
     return walk[::-1]
-
-
-def _backwards(ahead: Ways, state: State, place: int) -> list[int]:
-    """From `place` back to the place of `state` through visited places, without `place` itself."""
-    here, visited = state
-    before = {here: here}
-    order = [here]
-    for at in order:
-        for other in ahead[at]:
-            if other not in before and (other == place or visited >> other & 1):
-                before[other] = at
-                order.append(other)
-    path = [before[place]]
-    while path[-1] != here:
-        path.append(before[path[-1]])
-    return path

@@ -26,9 +26,7 @@ class World(Protocol):
         """The actions."""
         ...
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observation, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: Any = None) -> tuple[Observation, dict[str, Any]]:
         """The first observation, and the truth."""
         ...
 
@@ -67,25 +65,15 @@ class Chart(Protocol):
         ...
 
     def find(self, place: Any) -> Place:
-        """`place` as it stands in `places`.
-
-        Raises:
-            WorldError: there is no such place.
-        """
+        """`place` as it stands in `places`; a WorldError if there is none."""
         ...
 
     def exits(self, place: Place) -> Mapping[Any, Place | None]:
-        """Where each action leads, as in `successors`; None where there is no way."""
+        """Where each action leads with everything open, by its name, in the order of the indices; None of no way."""
         ...
 
     def successors(self, place: Place) -> Mapping[Any, Place]:
-        """Where each action leads from `place` with everything open, by its name, in the order of the action indices.
-
-        What is no way leads back.
-
-        Raises:
-            WorldError: there is no such place.
-        """
+        """The same; what is no way leads back."""
         ...
 
     def length(self, place: Place, way: Any) -> float | None:
@@ -118,7 +106,7 @@ class CanDisplace(Protocol):
 
 @runtime_checkable
 class CanClose(Protocol):
-    """A world whose rooms and doors can be closed and opened."""
+    """A world whose rooms, and doors between two rooms, can be closed and opened."""
 
     @property
     def closed_rooms(self) -> frozenset[Any]:
@@ -148,15 +136,10 @@ class CanClose(Protocol):
 
 
 def offered(world: Any, kind: type[Offer], what: str) -> Offer:
-    """`world` itself, or the innermost part of its wrappers, whichever offers `kind` first.
-
-    Args:
-        world: a Gymnasium environment, wrapped or not.
-        kind: one of the protocols here.
-        what: what it is needed for, as the subject of the error.
+    """`world` or the environment inside its wrappers, whichever offers `kind` first, the outermost first.
 
     Raises:
-        WorldError: nobody offers it.
+        WorldError: none does; `what` is the subject, such as "kidnapping".
     """
     for layer in _layers(world):
         if isinstance(layer, kind):

@@ -15,7 +15,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from .errors import WorldError
-from .maze import LARGEST_LABEL, Door, Label, Maze, Position, UnreachableError
+from .maze import Maze
+from .maze_checks import LARGEST_LABEL, Door, Label, Position, UnreachableError
 
 EMPTY = frozenset({".", "-1"})
 _NUMBER = re.compile(r"[0-9]+")

@@ -4,33 +4,71 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 
-from ...model import CogmapError
-from . import brute, elimination, gtsam_engine
-from .problem import Problem, reduce
+from ...model import FactorGraph
+from ..evidence import Given
+from . import brute, elimination, gtsam_engine, targets
+from .bucket_tree import BucketTree, draw, entropy, tree_of
+from .buckets import Buckets, Pass, buckets, forward
+from .elimination import Order, best_first, marginal_maximum, traced
+from .ordering import CHEAP, MEMORY, Elimination, without
+from .ordering import elimination as plan_elimination
+from .problem import Problem, Where, reduce
 from .solution import Solution
+from .tables import Table, eliminated, in_logs, product, times
 
-__all__ = ["ENGINES", "Problem", "Solution", "maximise", "reduce", "solve"]
+__all__ = [
+    "CHEAP",
+    "ENGINES",
+    "MEMORY",
+    "BucketTree",
+    "Buckets",
+    "Elimination",
+    "Order",
+    "Pass",
+    "Problem",
+    "Solution",
+    "Table",
+    "Where",
+    "best_first",
+    "buckets",
+    "draw",
+    "eliminated",
+    "entropy",
+    "forward",
+    "in_logs",
+    "marginal_maximum",
+    "maximise",
+    "plan_elimination",
+    "product",
+    "reduce",
+    "solve",
+    "times",
+    "traced",
+    "tree_of",
+    "without",
+]
 
 ENGINES = ("numpy", "gtsam", "brute")
 
 
-def solve(problem: Problem, engine: str, order: Sequence[str] | None) -> Solution:
-    """Sum-product by the engine of that name; see `infer`."""
+def solve(
+    graph: FactorGraph, given: Given, engine: str, *, order: Order, memory: float, asked: Sequence[str] | None = None
+) -> Solution:
+    """Sum-product by the engine of that name, of all variables or of those asked for; see `infer`."""
     if engine == "brute":
-        return brute.solve(problem)
-    return (gtsam_engine if _checked(engine) == "gtsam" else elimination).solve(problem, order)
+        return brute.solve(graph, given)
+    if engine == "gtsam":
+        return gtsam_engine.solve(reduce(graph, given), order, memory)
+    if asked is not None:
+        return targets.solve(graph, given, asked, order, memory)
+    return elimination.solve(reduce(graph, given), order, memory)
 
 
-def maximise(problem: Problem, engine: str, order: Sequence[str] | None) -> dict[str, Hashable]:
+def maximise(graph: FactorGraph, given: Given, engine: str, *, order: Order, memory: float) -> dict[str, Hashable]:
     """The most probable label of every variable, by the engine of that name; see `most_probable`."""
     if engine == "brute":
-        best = brute.most_probable(problem)
-        return {variable.name: variable.domain[best[variable.name]] for variable in problem.graph.variables}
-    chosen = gtsam_engine if _checked(engine) == "gtsam" else elimination
-    return problem.labels(chosen.maximise(problem, order))
-
-
-def _checked(engine: str) -> str:
-    if engine not in ENGINES:
-        raise CogmapError(f"inference: no engine {engine!r}; choose one of {', '.join(ENGINES)}")
-    return engine
+        assignments, logs = brute.enumerated(graph, given)
+        best = assignments[int(logs.argmax())]
+        return {variable.name: variable.domain[i] for variable, i in zip(graph.variables, best, strict=True)}
+    problem = reduce(graph, given)
+    return problem.labels((gtsam_engine if engine == "gtsam" else elimination).maximise(problem, order, memory))

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...model import CogmapError, FloatArray, IntArray
+from ...model import CogmapError, FactorGraph, FloatArray, IntArray
 from ..errors import impossible
-from ..evidence import fixed_indices
-from .problem import Problem
+from ..evidence import Given
 
 MOST_ASSIGNMENTS = 2_000_000
 
@@ -21,21 +20,21 @@ class BruteSolution:
     """All assignments with their posterior.
 
     Attributes:
-        problem: only its graph and evidence are used, none of its reductions.
+        graph: the graph.
         log_evidence: log Z.
         assignments: `[n, variables]` label indices, n assignments that fit the evidence.
         probabilities: `[n]` posterior of each.
     """
 
-    problem: Problem
+    graph: FactorGraph
     log_evidence: float
     assignments: IntArray
     probabilities: FloatArray
 
     def joint(self, names: Sequence[str]) -> FloatArray:
         """P(names | evidence), one axis a name."""
-        column = {variable.name: i for i, variable in enumerate(self.problem.graph.variables)}
-        result = np.zeros([self.problem.graph.variable_named(name).cardinality for name in names])
+        column = self.graph.wiring.number
+        result = np.zeros([self.graph.variable_named(name).cardinality for name in names])
         np.add.at(result, tuple(self.assignments[:, column[name]] for name in names), self.probabilities)
         return result
 
@@ -44,45 +43,46 @@ class BruteSolution:
         positive = self.probabilities[self.probabilities > 0]
         return -float(positive @ np.log(positive))
 
+    def sample(self, count: int, rng: np.random.Generator) -> IntArray:
+        """`[variables, count]` indices of labels, drawn from the posterior."""
+        return self.assignments[rng.choice(len(self.probabilities), size=count, p=self.probabilities)].T
 
-def solve(problem: Problem, order: Sequence[str] | None = None) -> BruteSolution:
-    """log Z = log Σ_x Π_f f(x); `order` is not needed.
+
+def solve(graph: FactorGraph, given: Given) -> BruteSolution:
+    """log Z = log Σ_x Π_f f(x).
 
     Raises:
         ImpossibleEvidence: Z = 0.
         CogmapError: more than `MOST_ASSIGNMENTS` assignments.
     """
-    assignments, logs = _enumerated(problem)
+    assignments, logs = enumerated(graph, given)
     top = float(logs.max())
     weights = np.exp(logs - top)
-    return BruteSolution(problem, top + math.log(weights.sum()), assignments, weights / weights.sum())
+    return BruteSolution(graph, top + math.log(weights.sum()), assignments, weights / weights.sum())
 
 
-def most_probable(problem: Problem) -> dict[str, int]:
-    """Index of each variable of the graph in the first assignment with the largest product."""
-    assignments, logs = _enumerated(problem)
-    best = assignments[int(logs.argmax())]
-    return {variable.name: int(i) for variable, i in zip(problem.graph.variables, best, strict=True)}
+def enumerated(graph: FactorGraph, given: Given) -> tuple[IntArray, FloatArray]:
+    """All assignments that fit the evidence, `[n, variables]`, and the log of the product of each.
 
-
-def _enumerated(problem: Problem) -> tuple[IntArray, FloatArray]:
-    graph = problem.graph
-    fixed = fixed_indices(graph, problem.given)
-    cards = [1 if v.name in fixed else v.cardinality for v in graph.variables]
+    Raises: as `solve`.
+    """
+    fixed = given.fixed
+    cards = [1 if i in fixed else v.cardinality for i, v in enumerate(graph.variables)]
     count = math.prod(cards)
     if count > MOST_ASSIGNMENTS:
         raise CogmapError(f"engine 'brute': {count:.3g} assignments, above {MOST_ASSIGNMENTS:.3g}; use engine='numpy'")
-    columns: dict[str, IntArray] = {}
+    columns: list[IntArray] = []
     repeat = count
-    for variable, card in zip(graph.variables, cards, strict=True):
+    for i, card in enumerate(cards):
         repeat //= card
-        own = np.arange(count) // repeat % card
-        columns[variable.name] = own + fixed.get(variable.name, 0)
+        columns.append(np.arange(count) // repeat % card + fixed.get(i, 0))
     logs = np.zeros(count)
     with np.errstate(divide="ignore"):
-        for factor in graph.factors:
-            logs += np.log(factor.dense()[tuple(columns[v.name] for v in factor.scope)])
+        for factor, scope in zip(graph.factors, graph.wiring.scopes, strict=True):
+            logs += np.log(factor.at([columns[i] for i in scope]))
+        for i, likelihoods in given.soft.items():
+            logs += np.log(likelihoods[columns[i]])
     if not np.isfinite(logs.max()):
-        raise impossible(graph, problem.given, columns)
-    stacked = np.stack(list(columns.values()), axis=1) if columns else np.zeros((1, 0), dtype=np.int64)
+        raise impossible(graph, given.labels, graph.wiring.number)
+    stacked = np.stack(columns, axis=1) if columns else np.zeros((1, 0), dtype=np.int64)
     return stacked, logs

@@ -2,102 +2,124 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...model import FloatArray
-from .buckets import LARGEST_CLUSTER, Buckets
+from ...model import FloatArray, IntArray
+from .buckets import Buckets, Pass, buckets, forward
 from .ordering import elimination
-from .problem import Problem
-
-Scopes = Sequence[tuple[int, ...]]
+from .tables import Table
 
 
 @dataclass(frozen=True, slots=True)
 class BucketTree:
-    """A tree of buckets, one a variable, in order of elimination; each is calibrated when it is asked for.
+    """A tree of buckets in order of elimination; each is calibrated when it is asked for.
 
     Attributes:
-        problem: the reduced problem.
+        plan: the buckets.
+        given: index of each node that was sliced out.
+        inputs: the tables of the problem.
         log_evidence: log Z.
-        scopes: for each bucket its variables, the eliminated one first, then its separator by order.
-        tables: for each bucket, one axis a variable: proportional to P(x_i | S_i), and once it is calibrated
-            P(x_i, S_i | evidence) in its place.
-        messages: P(x_i | S_i) as it was in `tables`, summed over x_i.
-        place: bucket of each variable.
+        over: for each bucket, one axis a node: over / by is P(x_i | S_i); once it is calibrated, P(x_i, S_i | evidence)
+            stands in its place.
+        by: for each bucket the sum of its `over`, as it was, over x_i.
+        memory: bytes that a joint may take that needs an elimination of its own.
     """
 
-    problem: Problem
+    plan: Buckets
+    given: dict[int, int]
+    inputs: Sequence[Table]
     log_evidence: float
-    scopes: Scopes
-    tables: list[FloatArray]
-    messages: Sequence[FloatArray]
-    place: Mapping[int, int]
+    over: list[FloatArray]
+    by: Sequence[FloatArray]
+    memory: float
     _calibrated: set[int] = field(default_factory=set[int], repr=False, compare=False)
 
     def joint(self, names: Sequence[str]) -> FloatArray:
         """P(names | evidence), one axis a name; eliminates the rest afresh where no bucket holds them all."""
-        wanted = self.problem.carriers(names)
-        if not wanted:
-            return self.problem.expand(names, wanted, np.ones(()))
+        problem = self.plan.problem
+        wanted = problem.nodes(names)
+        if len(wanted) == 1 and len(names) == 1 and problem.located(names)[0][1] is None:
+            return self.nodes(wanted)
+        return problem.expand(names, {wanted: self.nodes(wanted)})
+
+    def nodes(self, wanted: tuple[int, ...]) -> FloatArray:
+        """P(nodes | evidence), one axis a node."""
+        free = tuple([i for i in wanted if i not in self.given]) if self.given else wanted
+        joint = self._free(free) if free else np.ones(())
+        if len(free) == len(wanted):
+            return joint
+        cards = self.plan.problem.cards
+        whole = np.zeros([cards[i] for i in wanted])
+        whole[tuple([self.given.get(i, slice(None)) for i in wanted])] = joint
+        return whole
+
+    def _free(self, wanted: tuple[int, ...]) -> FloatArray:
         # the first of them to leave: its bucket holds them all, or none does
-        at = min([self.place[i] for i in wanted])
-        if set(wanted) <= set(self.scopes[at]):
-            joint = _marginal(self.belief(at), self.scopes[at], wanted)
-        else:
-            joint = _by_elimination(self.problem, wanted)
-        return self.problem.expand(names, wanted, joint)
+        at = min([self.plan.place[i] for i in wanted])
+        if set(wanted) <= set(self.plan.scopes[at]):
+            return _marginal(self.belief(at), self.plan.scopes[at], wanted)
+        problem = self.plan.problem
+        order = elimination(problem, keep=wanted, known=self.given, memory=self.memory)
+        fresh = buckets(problem, order, known=self.given, keep=wanted)
+        message = forward(fresh, self.inputs, given=self.given, keep=len(wanted)).messages[-1]
+        joint = np.exp(message.values) if message.logs else message.values
+        return joint / joint.sum()
 
     def belief(self, at: int) -> FloatArray:
-        """P(x_i, S_i) = P(S_i) product_i / message_i, from the last bucket on the way down to this one; 0 / 0 = 0."""
+        """P(x_i, S_i) = P(S_i) over_i / by_i, from the last bucket on the way down to this one; 0 / 0 = 0."""
+        if at in self._calibrated:
+            return self.over[at]
         way = [at]
-        while way[-1] not in self._calibrated and len(self.scopes[way[-1]]) > 1:
-            way.append(self.place[self.scopes[way[-1]][1]])
+        while (parent := self.plan.parent(way[-1])) is not None and parent not in self._calibrated:
+            way.append(parent)
         for here in reversed(way):
-            if here not in self._calibrated:
-                self._calibrate(here)
-        return self.tables[at]
-
-    def _calibrate(self, at: int) -> None:
-        """Multiply by P(S_i) / message_i; the bucket that S_i is part of is calibrated already."""
-        scope, message = self.scopes[at], self.messages[at]
-        above = np.ones(())
-        if len(scope) > 1:
-            parent = self.place[scope[1]]
-            above = _marginal(self.tables[parent], self.scopes[parent], scope[1:])
-        ratio = np.divide(above, message, out=np.zeros(message.shape), where=message > 0)
-        self.tables[at] = self.tables[at] * ratio
-        self._calibrated.add(at)
+            scope, by = self.plan.scopes[here], self.by[here]
+            if len(scope) > 1:
+                parent = self.plan.place[scope[1]]
+                above = _marginal(self.over[parent], self.plan.scopes[parent], scope[1:])
+                ratio = np.divide(above, by, out=np.zeros(by.shape), where=by > 0)
+            else:
+                ratio = 1.0 / by
+            self.over[here] = self.over[here] * ratio
+            self._calibrated.add(here)
+        return self.over[at]
 
     def entropy(self) -> float:
         """H = Σ_i H(x_i, S_i) - H(S_i), in nats."""
-        beliefs = [self.belief(at) for at in range(len(self.scopes))]
-        return sum(_entropy(belief) - _entropy(belief.sum(axis=0)) for belief in beliefs)
+        beliefs = [self.belief(at) for at in range(len(self.over))]
+        return sum(entropy(belief) - entropy(belief.sum(axis=0)) for belief in beliefs)
+
+    def sample(self, count: int, rng: np.random.Generator) -> IntArray:
+        """`[variables, count]` indices of labels, drawn from the posterior: from the last bucket to the first."""
+        drawn = np.zeros((len(self.plan.problem.cards), count), dtype=np.int64)
+        for node, index in self.given.items():
+            drawn[node] = index
+        for scope, over in zip(reversed(self.plan.scopes), reversed(self.over), strict=True):
+            weights = over[(slice(None), *[drawn[i] for i in scope[1:]])].reshape(len(over), -1)
+            drawn[scope[0]] = draw(np.broadcast_to(weights, (len(over), count)), rng)
+        return self.plan.problem.columns(drawn)
 
 
-def tree_of(
-    problem: Problem,
-    log_evidence: float,
-    scopes: Scopes,
-    products: Sequence[FloatArray],
-    messages: Sequence[FloatArray],
-) -> BucketTree:
-    """The tree of these buckets, in order of elimination; `products` are what its `tables` begin with."""
-    place = {scope[0]: at for at, scope in enumerate(scopes)}
-    return BucketTree(problem, log_evidence, scopes, list(products), messages, place)
+def tree_of(done: Pass, memory: float) -> BucketTree:
+    """The tree of a forward pass; the pass itself stays as it is."""
+    over = list(done.over)
+    return BucketTree(done.buckets, dict(done.given), done.tables, done.log_scale, over, done.by, memory)
 
 
-def _by_elimination(problem: Problem, wanted: Sequence[int]) -> FloatArray:
-    """The joint over `wanted`, all other variables eliminated first."""
-    plan = elimination(problem, None, keep=wanted, limit=LARGEST_CLUSTER)
-    buckets = Buckets(problem, plan, keep=wanted)
-    for position in range(len(plan)):
-        buckets.send(position, buckets.product(position).sum(axis=0))
-    rest = [table for waiting in buckets.waiting[len(plan) :] for table in waiting]
-    product = buckets.product_over(wanted, rest)
-    return product / product.sum()
+def draw(weights: FloatArray, rng: np.random.Generator) -> IntArray:
+    """`[n]` outcomes, each drawn from a column of `weights [outcomes, n]`, which need not be normalised."""
+    up_to = np.cumsum(weights, axis=0)
+    # at most the last outcome that has weight, whatever rounding does
+    return (up_to < rng.random(weights.shape[1]) * up_to[-1] * (1.0 - 1e-15)).sum(axis=0)
+
+
+def entropy(belief: FloatArray) -> float:
+    """-Σ p log p, in nats."""
+    positive = belief[belief > 0]
+    return -float(positive @ np.log(positive))
 
 
 def _marginal(belief: FloatArray, scope: Sequence[int], wanted: Sequence[int]) -> FloatArray:
@@ -105,11 +127,6 @@ def _marginal(belief: FloatArray, scope: Sequence[int], wanted: Sequence[int]) -
     if len(scope) == len(wanted):
         summed, left = belief, list(scope)
     else:
-        summed = belief.sum(axis=tuple([axis for axis, i in enumerate(scope) if i not in wanted]))
+        summed = np.add.reduce(belief, axis=tuple([axis for axis, i in enumerate(scope) if i not in wanted]))
         left = [i for i in scope if i in wanted]
     return summed if left == list(wanted) else summed.transpose([left.index(i) for i in wanted])
-
-
-def _entropy(belief: FloatArray) -> float:
-    positive = belief[belief > 0]
-    return -float(positive @ np.log(positive))

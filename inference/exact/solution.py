@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol
 
-from ...model import FloatArray
+import numpy as np
+
+from ...model import FloatArray, IntArray
 
 
 class Solution(Protocol):
-    """What an engine leaves behind: it answers any joint over the variables of its graph."""
+    """It answers any joint over the variables of its graph."""
 
     @property
     def log_evidence(self) -> float:
@@ -22,4 +24,8 @@ class Solution(Protocol):
 
     def entropy(self) -> float:
         """Entropy of the posterior over all variables, in nats."""
+        ...
+
+    def sample(self, count: int, rng: np.random.Generator) -> IntArray:
+        """`[variables, count]` indices of labels, drawn from the posterior."""
         ...

@@ -5,15 +5,17 @@ from __future__ import annotations
 from .conditional import ConditionalTable, LearnableTable
 from .export import equation, quoted
 from .factor_graph import FactorGraph
-from .factors import Factor, FloatArray, IntArray, SparseValues, sparse_values
-from .structure import GraphStructure
+from .factors import Factor, FloatArray, IntArray, SparseValues, log_bounds, sparse_values
+from .structure import AllEvidence, Evidence, GraphStructure
 from .svg import MOST_DRAWN, graph_svg
 from .tables import LabelledTable, labelled, table
 from .variables import Variable, shortened
 
 __all__ = [
     "MOST_DRAWN",
+    "AllEvidence",
     "ConditionalTable",
+    "Evidence",
     "Factor",
     "FactorGraph",
     "FloatArray",
@@ -26,6 +28,7 @@ __all__ = [
     "equation",
     "graph_svg",
     "labelled",
+    "log_bounds",
     "quoted",
     "shortened",
     "sparse_values",

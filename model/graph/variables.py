@@ -34,6 +34,8 @@ class Variable:
             raise CogmapError(f"variable {self.name!r}: the name must be a non-empty string")
         if isinstance(self.domain, str):
             raise CogmapError(f"variable {self.name!r}: the domain is a string; give a tuple of labels")
+        if isinstance(self.domain, set | frozenset):
+            raise CogmapError(f"variable {self.name!r}: the domain is a set, it has no order; give a tuple of labels")
         try:
             object.__setattr__(self, "domain", tuple(self.domain))
             indices = {label: index for index, label in enumerate(self.domain)}

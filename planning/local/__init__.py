@@ -5,7 +5,7 @@ from .cut import Surroundings, local_model
 from .model import LocalModel
 from .preferences import Preferences
 from .transitions import Transitions
-from .view import MapView, Table
+from .view import MapView
 
 __all__ = [
     "LocalCache",
@@ -13,7 +13,6 @@ __all__ = [
     "MapView",
     "Preferences",
     "Surroundings",
-    "Table",
     "Transitions",
     "local_model",
 ]

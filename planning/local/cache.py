@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -17,26 +16,28 @@ from .view import MapView
 
 
 @dataclass(frozen=True, slots=True)
-class Ways:
-    """The ways that leave `n` places.
+class PlaceRows:
+    """What plans read of `n` places.
 
     Attributes:
         successors: `[n, K, slots]` where each action may lead to.
         probability: `[n, K, slots]` of each, zero where a slot is unused.
         likely: `[n, K]` where it most probably leads to besides the place itself; see `likeliest`.
         blocked: `[n, K]` P(staying | s, a).
+        ways: `[n, N + 1]` nats that visits teach of B_s by their ways.
+        positions: `[n, N + 1]` nats that visits teach of A_p.
+        position: `[n, D]` where each place is; NaN where nobody knows.
+        sights: `[n, N + 1]` nats that visits teach of A_o.
     """
 
     successors: Ints
     probability: Floats
     likely: Ints
     blocked: Floats
-
-    @classmethod
-    def of(cls, places: Ints, successors: Ints, probability: Floats) -> Ways:
-        """The ways that have these successors."""
-        likely, blocked = likeliest(successors, probability, places, ELSEWHERE)
-        return cls(successors, probability, likely, blocked)
+    ways: Floats
+    positions: Floats
+    position: Floats
+    sights: Floats
 
 
 class LocalCache:
@@ -47,12 +48,13 @@ class LocalCache:
         visits: visits, at most, that plans ask the information of: N.
     """
 
-    __slots__ = ("_map", "_outcomes", "_read", "_sights", "_ways", "visits")
+    __slots__ = ("_beside", "_map", "_outcomes", "_read", "_sights", "_ways", "visits")
 
     def __init__(self, map_: MapView, visits: int) -> None:
         self.visits = visits
         self._map = map_
         self._ways, self._sights = Rows(self._new_ways), Rows(self._new_sights)
+        self._beside: dict[int, list[int]] = {}  # where each place may lead to
         self._read = -1  # of the log of changes
         self._outcomes = 0
 
@@ -69,26 +71,35 @@ class LocalCache:
         ways, _ = map_.changed_places(read, map_.B_s, map_.A_p, map_.visits)
         sights, self._read = map_.changed_places(read, map_.A_o)
         self._ways.forget(ways)
+        if ways is None:
+            self._beside.clear()
+        for place in ways or ():
+            self._beside.pop(place, None)
         self._sights.forget(sights if map_.A_o.outcomes == self._outcomes else None)
         self._outcomes = map_.A_o.outcomes
 
-    def ways(self, places: Ints) -> Ways:
-        """The ways that leave `places`."""
-        successors, probability, likely, blocked = self._ways.columns(places, 0, 1, 2, 3)
-        return Ways(successors, probability, likely, blocked)
+    def rows(self, places: Ints) -> PlaceRows:
+        """All of these places, and a row of zeros at the end."""
+        return PlaceRows(*self._ways.columns(places), *self._sights.columns(places))
+
+    def within(self, places: Ints, steps: int) -> Ints:
+        """Places within so many steps, however improbable, ascending."""
+        beside, frontier = self._beside, places.tolist()
+        known = set(frontier)
+        for _ in range(steps):
+            ahead: set[int] = set()
+            for place in frontier:
+                if place not in beside:
+                    keys = self._map.B_s.keys(self._map.rows_of(np.array([place])))
+                    beside[place] = [after for after in set(keys.ravel().tolist()) if after >= 0]
+                ahead.update(beside[place])
+            frontier = ahead - known
+            known |= frontier
+        return np.array(sorted(known), dtype=np.int64)
 
     def likely(self, places: Ints) -> Ints:
         """`[n, K]` where each action most probably leads to; -1 where that is nowhere else, or not known."""
-        return self._ways.columns(places, 2)[0]
-
-    def information(self, places: Ints) -> Mapping[str, Floats]:
-        """What visits teach of A_o, of A_p and, by their ways, of B_s, `[n, N + 1]` nats each."""
-        ways, positions = self._ways.columns(places, 4, 5)
-        return {"sight": self._sights.columns(places, 0)[0], "position": positions, "transition": ways}
-
-    def positions(self, places: Ints) -> Floats:
-        """`[n, D]` where each place is; NaN where nobody knows."""
-        return self._ways.columns(places, 6)[0]
+        return self._ways.column(2, places)
 
     def unseen(self) -> Floats:
         """`[N + 1]` what visits teach of A_o in a place never imagined."""
@@ -98,22 +109,16 @@ class LocalCache:
         map_, size = self._map, len(self._map.motions)
         keys, alpha, _ = map_.B_s.concentration(map_.rows_of(places))
         keys, alpha = keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
-        ways = Ways.of(places, keys, alpha / alpha.sum(axis=2, keepdims=True))
+        p = alpha / alpha.sum(axis=2, keepdims=True)
+        likely, blocked = likeliest(keys, p, places, ELSEWHERE)
         # a look teaches nothing where a visit has shown all it can, and no place lies beyond
         shown = map_.visited[places][:, None] & (keys == ELSEWHERE).any(axis=2)
         of_ways = (_information(alpha, self.visits) * ~shown[..., None]).sum(axis=1)
         of_positions = _information(map_.A_p.concentration(places)[1], self.visits)
         unknown = (np.nan,) * len(map_.motions.displacements[0])
         positions = [unknown if (at := map_.position(place)) is None else at for place in places.tolist()]
-        return (
-            ways.successors,
-            ways.probability,
-            ways.likely,
-            ways.blocked,
-            of_ways,
-            of_positions,
-            np.array(positions, dtype=np.float64).reshape(len(places), -1),
-        )
+        position = np.array(positions, dtype=np.float64).reshape(len(places), -1)
+        return keys, p, likely, blocked, of_ways, of_positions, position
 
     def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         _, alpha, others = self._map.A_o.concentration(places)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
-from .cache import LocalCache, Ways
+from .cache import LocalCache, PlaceRows
 from .model import Floats, Ints, LocalModel
 from .preferences import Preferences
-from .transitions import Transitions
+from .transitions import Transitions, likeliest
 from .view import MapView
 
 
@@ -69,16 +69,22 @@ def local_model(
     cache.refresh()
     preferences = preferences or Preferences()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
-    near = _ball(map_, places, look_ahead)
+    near = cache.within(places, look_ahead)
     far = beyond(Surroundings(map_, cache, places, near, preferences))
     within = np.union1d(near, far) if len(far) else near
     at, local = within.searchsorted(places), np.append(within, ELSEWHERE)
     q = np.zeros(len(local))
     q[at] = belief
     A, multiplicity, log_C = _sights(map_, within, preferences)
-    ways = cache.ways(within)
-    _sense(ways, within, at, open_)
-    B, successor, blocked = _transitions(within, ways, map_.motions.stay)
+    rows = cache.rows(within)
+    _sense(rows, within, at, open_)
+    rows.blocked[:, map_.motions.stay] = 0.0
+    rows.position[-1] = np.nan
+    rows.sights[-1] = cache.unseen()
+    B, successor = _transitions(within, rows, map_.motions.stay)
+    entered = np.zeros(len(local), dtype=np.bool_)
+    entered[:-1] = map_.visited[within]
+    visits = slice(look_ahead + 1)
     return LocalModel(
         motions=map_.motions,
         look_ahead=look_ahead,
@@ -89,39 +95,20 @@ def local_model(
         log_C=log_C,
         log_C_place=preferences.log_C_place(local),
         B=B,
-        blocked=blocked,
+        blocked=rows.blocked,
         collision_cost=preferences.collision_cost,
-        information=_information(cache, within, look_ahead + 1),
+        information={
+            "sight": rows.sights[:, visits],
+            "position": rows.positions[:, visits],
+            "transition": rows.ways[:, visits],
+        },
         successor=successor,
-        entered=np.append(map_.visited[within], False),
-        position=np.append(positions := cache.positions(within), np.full_like(positions[:1], np.nan), axis=0),
+        entered=entered,
+        position=rows.position,
         discount=discount,
         information_weight=information_weight,
         dropped=dropped,
     )
-
-
-def _ball(map_: MapView, places: Ints, look_ahead: int) -> Ints:
-    """Places within `look_ahead` steps, however improbable, ascending."""
-    size, keys = len(map_.motions), map_.B_s.keys
-    frontier = places.tolist()
-    known = set(frontier)
-    for _ in range(look_ahead):
-        ahead = {
-            after for place in frontier for after in keys(slice(place * size, (place + 1) * size)).ravel().tolist()
-        }
-        frontier = [place for place in ahead - known if place >= 0]
-        known.update(frontier)
-    return np.array(sorted(known), dtype=np.int64)
-
-
-def _information(cache: LocalCache, places: Ints, columns: int) -> dict[str, Floats]:
-    """What 0, 1, … visits of each of `places` teach, and, last, of everywhere never imagined."""
-    last = {"sight": cache.unseen()[None, :columns]}
-    return {
-        name: np.append(table[:, :columns], last.get(name, np.zeros((1, columns))), axis=0)
-        for name, table in cache.information(places).items()
-    }
 
 
 def _likeliest_starts(places: Ints, belief: Floats, most: int) -> tuple[Ints, Floats, float]:
@@ -154,44 +141,36 @@ def _sights(map_: MapView, places: Ints, preferences: Preferences) -> tuple[Floa
     return (A, multiplicity, log_C) if rest else (A[:-1], multiplicity[:-1], log_C[:-1])
 
 
-def _sense(ways: Ways, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:
-    """Let the doors of `sensing` be as they are sensed now: shut, or not the place itself beyond."""
-    here = places[sensing]
-    is_open = np.array(open_, dtype=np.bool_)
-    keys, p = ways.successors[sensing], ways.probability[sensing]
+def _sense(rows: PlaceRows, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:
+    """Let the ways of `sensing` be as they are sensed now: shut, or not the place itself beyond."""
+    here, shut = places[sensing], ~np.array(open_, dtype=np.bool_)
+    keys, p = rows.successors[sensing], rows.probability[sensing]
     own = keys == here[:, None, None]
     beyond = (p * ~own).sum(axis=2, keepdims=True)
     p = np.where(own & (beyond > 0.0), 0.0, p / np.where(beyond > 0.0, beyond, 1.0))
-    keys[:, ~is_open], p[:, ~is_open] = EMPTY, 0.0
-    keys[:, ~is_open, 0], p[:, ~is_open, 0] = here[:, None], 1.0
-    sensed = Ways.of(here, keys, p)
-    for name in Ways.__slots__:
-        getattr(ways, name)[sensing] = getattr(sensed, name)
+    keys[:, shut], p[:, shut] = EMPTY, 0.0
+    keys[:, shut, 0], p[:, shut, 0] = here[:, None], 1.0
+    rows.successors[sensing], rows.probability[sensing] = keys, p
+    rows.likely[sensing], rows.blocked[sensing] = likeliest(keys, p, here, ELSEWHERE)
 
 
-def _transitions(places: Ints, ways: Ways, stay: int) -> tuple[Transitions, Ints, Floats]:
-    """B, the likeliest successors and P(blocked), over `places` and, last, everywhere never imagined."""
-    size, actions, slots = ways.successors.shape
-    at = _local(places, np.concatenate([ways.successors, ways.likely[:, :, None]], axis=2))
-    successors = np.full((size + 1, actions, slots), size)
-    probability = np.zeros((size + 1, actions, slots))
-    successors[:-1], probability[:-1], probability[-1, :, 0] = at[:, :, :-1], ways.probability, 1.0
-    successor = np.full((size + 1, actions), -1)
-    successor[:-1] = np.where(ways.likely >= 0, at[:, :, -1], -1)
+def _transitions(places: Ints, rows: PlaceRows, stay: int) -> tuple[Transitions, Ints]:
+    """B and the likeliest successors over `places` and, last, everywhere never imagined, which leads to itself."""
+    size = len(places)
+    rows.successors[-1], rows.probability[-1, :, 0] = ELSEWHERE, 1.0
+    rows.likely[-1] = ELSEWHERE
+    successor = np.where(rows.likely >= 0, _local(places, rows.likely), -1)
     successor[:-1, stay] = np.arange(size)
-    collision = np.zeros((size + 1, actions))
-    collision[:-1] = ways.blocked
-    collision[:, stay] = 0.0
-    return Transitions(successors, probability), successor, collision
+    return Transitions(_local(places, rows.successors), rows.probability), successor
 
 
 def _local(places: Ints, keys: Ints) -> Ints:
-    """`[R, ...]` places of the map by their local number, `R` for one never imagined.
+    """Places of the map by their local number, the last for one never imagined.
 
     One that is not in the model becomes the place that leads to it (the first axis): no policy is meant to go there.
     """
     size = len(places)
     at = places.searchsorted(keys)
     at[at == size] = 0
-    here = np.arange(size).reshape(-1, *(1,) * (keys.ndim - 1))
+    here = np.arange(len(keys)).reshape(-1, *(1,) * (keys.ndim - 1))
     return np.where(places[at] == keys, at, np.where(keys == ELSEWHERE, size, here))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +33,7 @@ class LocalModel:
         multiplicity: `[O]` sights that each row stands for.
         log_C: `[O]` log preference of each of the sights in the row, in nats (its weight included).
         log_C_place: `[R]` log preference of being in each place, in nats; zero where none is given.
-        B: P(s' | s, a), the few successors of each place; it reads like an array `[R, R, K]`.
+        B: P(s' | s, a), the few successors of each place.
         blocked: `[R, K]` P(blocked | s, a); zero for `stay`.
         collision_cost: -log P(c = 1) of the preferred outcomes, in nats.
         information: for each table that is learned, by name (`sight`, `position`, `transition`), `[R, N + 1]` what `n`
@@ -91,69 +92,65 @@ class LocalModel:
 
     def check(self) -> None:
         """Raise `CogmapError` naming the first table that is of the wrong shape or no probability."""
-        if self.look_ahead < 1:
-            raise CogmapError(f"local model: look_ahead is {self.look_ahead}; give 1 or more steps")
-        self.B.check()
         self._check_shapes()
-        self._check_probabilities()
-        self._check_numbers()
+        B = self.B.probability.transpose(2, 0, 1)
+        for name, table in (("belief", self.belief), ("A", self.A), ("B", B)):
+            # a NaN fails every comparison, so these also refuse what is not finite
+            _need(
+                table.min() >= 0.0 and abs(table.sum(0) - 1.0).max() <= 1e-6, f"{name} is no probability", "sums of one"
+            )
+        wanted = np.concatenate([self.log_C, self.log_C_place, [self.collision_cost]])
+        R = len(self.belief)
+        for fine, what, remedy in (
+            (
+                self.blocked.min() >= 0.0 and self.blocked.max() <= 1.0,
+                "blocked is no probability",
+                "numbers from 0 to 1",
+            ),
+            (
+                np.isfinite(wanted).all(),
+                "log_C, log_C_place or collision_cost is not finite",
+                "a floor to what is unwanted",
+            ),
+            (0.0 < self.discount <= 1.0, f"discount is {self.discount}", "a number above 0, at most 1"),
+            (0.0 <= self.information_weight < np.inf, "information_weight is negative or not finite", "0 or more"),
+            (0.0 <= self.dropped < 1.0, f"dropped is {self.dropped}", "a probability below 1"),
+            (self.multiplicity.min() >= 1.0, "multiplicity is below one", "each row of A one sight or more"),
+            (self.successor.min() >= -1 and self.successor.max() < R, "successor is no place", "-1, or places from 0"),
+            (
+                self.B.successors.min() >= 0 and self.B.successors.max() < R,
+                "B leads out of the places",
+                "places from 0",
+            ),
+        ):
+            _need(fine, what, remedy)
 
     def _check_shapes(self) -> None:
         R, K, O = len(self.belief), len(self.motions), len(self.multiplicity)  # noqa: E741
+        N, slots = max(self.look_ahead, 0), self.B.successors.shape[-1]
+        _need(self.look_ahead >= 1, f"look_ahead is {self.look_ahead}", "1 or more steps")
         shapes = {
-            "places": (R,),
-            "belief": (R,),
             "A": (O, R),
-            "multiplicity": (O,),
             "log_C": (O,),
-            "log_C_place": (R,),
-            "B": (R, R, K),
-            "blocked": (R, K),
             "successor": (R, K),
-            "entered": (R,),
             "position": (R, len(self.motions.displacements[0])),
+            "blocked": (R, K),
+            **dict.fromkeys(("places", "log_C_place", "entered"), (R,)),
         }
-        found = {name: getattr(self, name).shape for name in shapes}
+        tables: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in shapes}
         for name, table in self.information.items():
-            found[f"information[{name!r}]"], shapes[f"information[{name!r}]"] = table.shape, (R, table.shape[-1])
-            if table.shape[-1] <= self.look_ahead:
-                least = self.look_ahead + 1
-                raise CogmapError(
-                    f"local model: information[{name!r}] ends before look_ahead; give {least} columns or more"
-                )
+            tables[f"information[{name!r}]"] = table[:, : N + 1]
+            shapes[f"information[{name!r}]"] = (R, N + 1)
+        tables |= {"successors of B": self.B.successors, "probability of B": self.B.probability}
+        shapes |= dict.fromkeys(("successors of B", "probability of B"), (R, K, slots))
         for name, shape in shapes.items():
-            if found[name] != shape or 0 in shape:
-                raise CogmapError(
-                    f"local model: {name} has shape {found[name]}; "
-                    f"{R} places, {K} actions, {O} outcomes ask for {shape}"
-                )
+            what = f"{name} has shape {tables[name].shape}"
+            _need(tables[name].shape == shape and 0 not in shape, what, f"{shape}, by places, actions and outcomes")
 
-    def _check_probabilities(self) -> None:
-        p = self.B.probability.transpose(2, 0, 1)
-        for name, table in (("belief", self.belief), ("A", self.A), ("B", p)):
-            # a NaN fails every comparison, so these also refuse what is not finite
-            if not (table.min() >= 0.0 and abs(table.sum(0) - 1.0).max() <= 1e-6):
-                raise CogmapError(f"local model: {name} is no probability; its columns must sum to one")
-        if not (self.blocked.min() >= 0.0 and self.blocked.max() <= 1.0):
-            raise CogmapError("local model: blocked is no probability; give numbers from 0 to 1")
 
-    def _check_numbers(self) -> None:
-        if not np.isfinite(np.concatenate([self.log_C, self.log_C_place, [self.collision_cost]])).all():
-            raise CogmapError(
-                "local model: log_C, log_C_place and collision_cost must be finite; "
-                "an outcome never wanted needs a floor"
-            )
-        for name, fine, wanted in (
-            ("discount", 0.0 < self.discount <= 1.0, "a number above 0, at most 1"),
-            ("information_weight", 0.0 <= self.information_weight < np.inf, "a finite number, 0 or more"),
-            ("dropped", 0.0 <= self.dropped < 1.0, "a probability below 1"),
-        ):
-            if not fine:
-                raise CogmapError(f"local model: {name} is {getattr(self, name)}; give {wanted}")
-        if not self.multiplicity.min() >= 1.0:
-            raise CogmapError("local model: multiplicity is below one; each row of A stands for one sight or more")
-        if self.successor.min() < -1 or self.successor.max() >= len(self.belief):
-            raise CogmapError("local model: successor must be -1 or one of its places, counted from 0")
+def _need(fine: bool | np.bool_, what: str, remedy: str) -> None:
+    if not fine:
+        raise CogmapError(f"local model: {what}; give {remedy}")
 
 
 _A_PLACE = ("places", "belief", "log_C_place", "blocked", "entered", "position")

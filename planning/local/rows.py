@@ -35,10 +35,20 @@ class Rows:
             if row < len(self._known):
                 self._known[row] = False
 
-    def columns(self, wanted: Ints, *which: int) -> Columns:
-        """The rows of these numbers, copied, of some of the arrays."""
+    def column(self, which: int, wanted: Ints) -> NDArray[Any]:
+        """The rows of these numbers, copied, of one of the arrays."""
         self._know(wanted)
-        return tuple(self._columns[column][wanted] for column in which)
+        return self._columns[which][wanted]
+
+    def columns(self, wanted: Ints) -> list[NDArray[Any]]:
+        """The rows of these numbers, copied, of all arrays, each with a row of zeros at the end."""
+        self._know(wanted)
+        found: list[NDArray[Any]] = []
+        for column in self._columns:
+            rows = np.zeros((len(wanted) + 1, *column.shape[1:]), column.dtype)
+            column.take(wanted, axis=0, out=rows[:-1], mode="clip")
+            found.append(rows)
+        return found
 
     def _know(self, wanted: Ints) -> None:
         if len(wanted) and (most := int(wanted.max())) >= len(self._known):

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...model import CogmapError
-
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 MANY = np.iinfo(np.int64).max
+FEW = 64
+"""Places up to which one dense product for all actions is quicker than anything that spares work."""
 
 
 @dataclass(frozen=True)
 class Transitions:
-    """P(s' | s, a) over `R` places, its few successors alone; it reads like the dense table `[R, R, K]`.
+    """P(s' | s, a) over `R` places, its few successors alone.
 
     Attributes:
         successors: `[R, K, n]` places that an action may lead to; one may be named more than once.
@@ -36,21 +35,6 @@ class Transitions:
         successors = np.argsort(-B, axis=2, kind="stable")[:, :, :slots]
         return cls(successors, np.take_along_axis(B, successors, axis=2))
 
-    def check(self) -> None:
-        """Raise `CogmapError` unless both arrays fit together."""
-        if self.successors.ndim != 3 or self.successors.shape != self.probability.shape:
-            raise CogmapError(
-                "local model: B has successors and probability of different shapes; give [R, K, n] of both"
-            )
-        if self.successors.min() < 0 or self.successors.max() >= len(self.successors):
-            raise CogmapError("local model: B leads out of the places; its successors are places counted from 0")
-
-    @property
-    def shape(self) -> tuple[int, int, int]:
-        """Of the dense table: `(R, R, K)`."""
-        places, actions = self.successors.shape[:2]
-        return places, places, actions
-
     @cached_property
     def by_place(self) -> Floats:
         """`[R, K, R]` the dense table as B[s, a, s']: R^2 numbers an action, for few places."""
@@ -64,18 +48,16 @@ class Transitions:
         """`[R, R, K]` the dense table as B[s', s, a]: R^2 numbers an action, for few places."""
         return self.by_place.transpose(2, 0, 1)
 
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.dense, dtype=dtype)
+    def predicted(self, belief: Floats, before: Ints, action: Ints) -> Floats:
+        """`[n, R]` Q'(s') = sum_s B[s', s, a] Q(s): rows `before` of the beliefs `[m, R]`, each after its action."""
+        size, actions, _ = self.successors.shape
+        if size <= FEW:
+            every = belief @ self.by_place.reshape(size, -1)
+            return every.reshape(-1, size).take(before * actions + action, axis=0)
+        return self._touched(belief[before], action)
 
-    def __getitem__(self, key: Any) -> Any:
-        return self.dense[key]
-
-    def argmax(self, axis: int) -> Ints:
-        """Of the dense table."""
-        return self.dense.argmax(axis=axis).astype(np.int64)
-
-    def predicted(self, belief: Floats, action: Ints) -> Floats:
-        """`[n, R]` Q'(s') = sum_s B[s', s, a] Q(s) of beliefs `[n, R]` after actions `[n]`; touches what holds mass."""
+    def _touched(self, belief: Floats, action: Ints) -> Floats:
+        """The same for one belief an action, by what holds mass alone."""
         many, size = belief.shape
         row, place = np.nonzero(belief)
         taken = action[row]

@@ -8,60 +8,27 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import Motions
+from ...model import Motions, SparseDirichlet
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-
-class Table(Protocol):
-    """Rows of Dirichlet counts; see `SparseDirichlet`."""
-
-    background: float
-    outcomes: int
-
-    def keys(self, rows: Ints | slice) -> Ints:
-        """`[n, slots]` outcomes that have counts of their own, below -1 where a slot is unused."""
-        ...
-
-    def concentration(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
-        """Keys and counts `[n, slots]`, and the number `[n]` of outcomes that have the background alone."""
-        ...
-
-    def mean(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
-        """Keys and expected probabilities `[n, slots]`, and that of one outcome without a slot, `[n]`."""
-        ...
-
-    def probability(self, key: int | Ints, rows: Ints) -> Floats:
-        """`[n]` expected probability of an outcome."""
-        ...
 
 
 class MapView(Protocol):
     """A map as a planner sees it: places by number, and what is believed of each.
 
-    Rows of `A_o` (sights) and `A_p` (positions) are places; those of `B_s` (transitions) are named by `rows_of`.
+    Attributes:
+        motions: the actions.
+        A_o: P(sight | place), a row a place.
+        A_p: P(position | place), a row a place.
+        B_s: P(next place | place, action), its rows named by `rows_of`; the outcome -1 is a place never imagined.
+        visits: what `changed_places` is asked about, for first visits.
     """
 
-    @property
-    def motions(self) -> Motions:
-        """The actions."""
-        ...
-
-    @property
-    def A_o(self) -> Table:
-        """P(sight | place)."""
-        ...
-
-    @property
-    def A_p(self) -> Table:
-        """P(position | place)."""
-        ...
-
-    @property
-    def B_s(self) -> Table:
-        """P(next place | place, action); the outcome -1 is a place never imagined."""
-        ...
+    motions: Motions
+    A_o: SparseDirichlet
+    A_p: SparseDirichlet
+    B_s: SparseDirichlet
+    visits: Any
 
     @property
     def places(self) -> range:
@@ -75,16 +42,7 @@ class MapView(Protocol):
 
     @property
     def visited_places(self) -> Ints:
-        """The places ever entered, in the order of their first visit."""
-        ...
-
-    @property
-    def visits(self) -> Any:
-        """What `changed_places` is asked about, for first visits."""
-        ...
-
-    def changed_places(self, cursor: int, *stores: Any) -> tuple[Collection[int] | None, int]:
-        """The places of which something in these tables changed since `cursor`, None for any, and the next cursor."""
+        """The places ever entered."""
         ...
 
     def rows_of(self, places: Ints) -> Ints:
@@ -93,4 +51,8 @@ class MapView(Protocol):
 
     def position(self, place: int) -> Sequence[float] | None:
         """Where a place is; None where nobody knows."""
+        ...
+
+    def changed_places(self, cursor: int, *stores: Any) -> tuple[Collection[int] | None, int]:
+        """The places of which something in these tables changed since `cursor`, None for any, and the next cursor."""
         ...

@@ -5,7 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import ClassVar
 
-from .geometric import geometric
+import numpy as np
+
 from .plain import Step
 from .rolled import Floats, Rollout, Staying
 
@@ -51,3 +52,11 @@ class Term(ABC):
         depends on earlier steps has to say itself what staying adds.
         """
         return geometric(ends.model.discount, steps) * self.gain(ends)
+
+
+def geometric(ratio: float, terms: Floats | float) -> Floats:
+    """1 + ratio + ... of so many terms, ratio above 0, at most 1."""
+    many = np.asarray(terms, dtype=np.float64)
+    if ratio == 1.0:
+        return many
+    return np.expm1(many * np.log(ratio)) / np.expm1(np.log(ratio))

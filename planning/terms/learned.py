@@ -6,8 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from .base import Term
-from .geometric import geometric
+from .base import Term, geometric
 from .plain import Step, collected
 from .rolled import Floats, Rollout, Staying
 

@@ -52,19 +52,24 @@ class Rollout:
     @cached_property
     def visits(self) -> Floats:
         """`[N, R]` expected visits so far: the sum of the beliefs, that before the first step left out."""
-        visits = np.zeros_like(self.belief)
-        for begin, end in self.levels:
-            np.add(visits[self.parent[begin:end]], self.belief[begin:end], out=visits[begin:end])
-        return visits
+        return self._so_far[0]
 
     @cached_property
     def reached(self) -> Floats:
-        """`[N, R]` probability of any visit so far: the largest of the beliefs, a bound that is exact on the way to a
-        place and while staying there."""
-        reached = np.zeros_like(self.belief)
+        """`[N, R]` probability of any visit so far.
+
+        It is the largest of the beliefs, a bound that is exact on the way to a place and while staying there.
+        """
+        return self._so_far[1]
+
+    @cached_property
+    def _so_far(self) -> tuple[Floats, Floats]:
+        visits, reached = np.zeros_like(self.belief), np.zeros_like(self.belief)
         for begin, end in self.levels:
-            np.maximum(reached[self.parent[begin:end]], self.belief[begin:end], out=reached[begin:end])
-        return reached
+            parent, belief = self.parent[begin:end], self.belief[begin:end]
+            np.add(visits[parent], belief, out=visits[begin:end])
+            np.maximum(reached[parent], belief, out=reached[begin:end])
+        return visits, reached
 
     def collected(self, table: Floats) -> Floats:
         """`[N]` what visits so far teach: sum_s q I_s(v / q) of expected visits v and probability q of any visit.
@@ -73,11 +78,9 @@ class Rollout:
             table: `[R, M + 1]` I from 0..M visits, zero in column 0; linear in between, constant beyond.
         """
         row, place, visits, reached, whole = self._visited
-        last = table.shape[1] - 1
-        base, rise = _pieces(table)
-        piece = np.minimum(whole, last)
-        piece += place * (last + 1)
-        worth = reached * base[piece] + visits * rise[piece]
+        whole = np.minimum(whole, table.shape[1] - 1)
+        low, high = table[place, whole], table[place, np.minimum(whole + 1, table.shape[1] - 1)]
+        worth = reached * low + (visits - reached * whole) * (high - low)
         return np.bincount(row, weights=worth, minlength=len(self.belief)).astype(np.float64, copy=False)
 
     @cached_property
@@ -124,13 +127,3 @@ class Staying(Rollout):
     def reached(self) -> Floats:
         """`[N, R]` probability of any visit before the step."""
         return self.rolled.reached[self.ends]
-
-
-def _pieces(table: Floats) -> tuple[Floats, Floats]:
-    """`[R * (M + 1)]` base and rise of I_s(x) = base + x rise on each piece [m, m + 1] of each place."""
-    last = table.shape[1] - 1
-    base, rise = np.zeros_like(table), np.zeros_like(table)
-    steps = rise[:, :last] = table[:, 1:] - table[:, :-1]
-    base[:, :last] = table[:, :-1] - np.arange(last) * steps
-    base[:, last] = table[:, last]
-    return base.ravel(), rise.ravel()

@@ -8,15 +8,17 @@ import html
 import json
 import re
 from collections.abc import Hashable
+from dataclasses import replace
 from importlib.resources import files
 from typing import Any
 
-from ...model.errors import CogmapError
-from ...model.labels import decode
-from ..colours import RGB, ink_on, sight_colour
+from ...model import CogmapError, decode
+from ..axes import Cell
+from ..colours import hexed, ink_on, sight_colour
+from ..map_picture import MapPicture
 from ..recording import Recording
 
-SCRIPTS = ("draw", "data", "words", "maze", "map", "belief", "policies", "times", "window", "controls")
+SCRIPTS = ("draw", "data", "words", "world", "map", "belief", "policies", "times", "window", "controls")
 """Parts of the script, in the order in which they follow each other."""
 
 DRAWN = (1, 2)
@@ -32,7 +34,8 @@ def replay_html(recording: Recording) -> str:
     Raises:
         CogmapError: positions of more than two dimensions.
     """
-    dimensions = len(recording.data["motions"]["displacements"][0])
+    displacements = recording.data["motions"]["displacements"]
+    dimensions = len(displacements[0]) if displacements else DRAWN[-1]
     if dimensions not in DRAWN:
         raise CogmapError(f"replay: positions have {dimensions} dimensions; only 1 or 2 can be drawn")
     script = "\n".join(["(() => {", '"use strict";', *(_asset(f"{name}.js") for name in SCRIPTS), "})();"])
@@ -66,16 +69,31 @@ def _embedded(value: Any) -> str:
 def _content(recording: Recording) -> dict[str, Any]:
     """The recording, with the labels as texts in their colours."""
     data, looks = recording.data, _Looks()
-    for label in recording.sights:
-        looks.number(label)
-    kept = ("title", "motions", "terms", "known", "origin", "frames")
+    sensors = {name: [looks.number(label) for label in labels] for name, labels in recording.labels.items()}
+    kept = ("title", "motions", "terms", "known", "places", "origin", "frames")
+    world = data["world"] and {
+        **data["world"],
+        "places": [[row, column, looks.number(decode(label))] for row, column, label in data["world"]["places"]],
+    }
     return {
         **{name: data[name] for name in kept},
         "threshold": data["settings"]["certainty"],
-        "maze": data["maze"] and [[row, column, looks.number(decode(label))] for row, column, label in data["maze"]],
+        "sensors": sensors,
+        "world": world,
         "goals": [looks.number(decode(label)) for label in data["goals"]],
+        "layout": None if data["motions"]["displacements"] else _layout(recording),
         "looks": looks.all,
     }
+
+
+def _layout(recording: Recording) -> list[Cell]:
+    """Where the places of a map without positions are drawn, by number."""
+    largest = MapPicture.recorded(recording.data)
+    for picture in recording.maps():
+        if len(picture.places) >= len(largest.places):
+            largest = replace(picture, places=[*picture.places], rows={**picture.rows})
+    cells = largest.cells
+    return [cells[place] for place in sorted(cells)]
 
 
 class _Looks:
@@ -89,9 +107,5 @@ class _Looks:
         if label not in self._numbers:
             self._numbers[label] = len(self.all)
             colour = sight_colour(label)
-            self.all.append((str(label), _hex(colour), "#000" if ink_on(colour) == "black" else "#fff"))
+            self.all.append((str(label), hexed(colour), "#000" if ink_on(colour) == "black" else "#fff"))
         return self._numbers[label]
-
-
-def _hex(colour: RGB) -> str:
-    return "#" + "".join(f"{round(255 * part):02x}" for part in colour)

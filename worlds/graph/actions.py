@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import WorldError
 from ..motions import Motions
 from .geometry import Ends, Floats
-from .raw import Edges, RawGraph, label, number, some
+from .raw import Edges, RawGraph, label, number, shown, some
 
 STAY = "stay"
 MOST_ACTIONS = 16
@@ -55,12 +55,12 @@ def names(raw: RawGraph, edges: Edges, motions: Mapping[str, tuple[int, ...]] | 
     if motions is None:
         return found
     if unknown := [way for way in found if way not in motions]:
-        raise WorldError(f"{raw.source}: way {unknown[0]!r:.40} is none of the motions ({some(list(motions))})")
+        raise WorldError(f"{raw.source}: way {shown(unknown[0])} is none of the motions ({some(list(motions))})")
     undo = {name: _undone(motions, name) for name in motions}
     back = [undo[way] if against else way for way, (_, against) in zip(found, edges, strict=True)]
     if None in back:
         way = found[back.index(None)]
-        raise WorldError(f"{raw.source}: no motion undoes {way!r:.40}; add one, or write directed edges")
+        raise WorldError(f"{raw.source}: no motion undoes {shown(way)}; add one, or write directed edges")
     return back
 
 
@@ -113,12 +113,12 @@ def _undone(motions: Mapping[str, tuple[int, ...]], name: str) -> str | None:
 
 
 def _vector(raw: RawGraph, name: str, vector: Any) -> tuple[int, ...]:
-    where = f"{raw.source}: motion {name!r:.40}"
+    where = f"{raw.source}: motion {shown(name)}"
     if not isinstance(vector, list | tuple):
-        raise WorldError(f"{where} is {vector!r:.40}; give a displacement such as [0, 1]")
+        raise WorldError(f"{where} is {shown(vector)}; give a displacement such as [0, 1]")
     found = [number(part, where) for part in vector]  # pyright: ignore[reportUnknownVariableType]
     if any(part != np.rint(part) for part in found):
-        raise WorldError(f"{where} is {vector!r:.40}; use whole numbers")
+        raise WorldError(f"{where} is {shown(vector)}; use whole numbers")
     return tuple(int(part) for part in found)
 
 
@@ -129,5 +129,5 @@ def _attribute(raw: RawGraph, key: str) -> dict[str, Any] | None:
         with suppress(ValueError):
             value = json.loads(value)
     if value is not None and not (isinstance(value, dict) and all(isinstance(name, str) for name in value)):  # pyright: ignore[reportUnknownVariableType]
-        raise WorldError(f"{raw.source}: graph.{key} is {value!r:.40}; give an object with a value for each name")
+        raise WorldError(f"{raw.source}: graph.{key} is {shown(value)}; give an object with a value for each name")
     return value  # pyright: ignore[reportUnknownVariableType]

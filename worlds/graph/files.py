@@ -11,7 +11,7 @@ from ..errors import WorldError
 from ..text import read_text
 from .build import build
 from .layout import Layout
-from .raw import RawGraph
+from .raw import RawGraph, shown
 
 LARGEST = 100 * 2**20
 """Bytes of the largest graph file that is read."""
@@ -69,7 +69,7 @@ def _read_json(text: str, name: str, source: str) -> RawGraph:
     if not isinstance(edges, list):
         raise WorldError(f"{source} is no graph: it has no list 'edges'")
     return RawGraph(
-        str(attributes.get("name") or name),
+        _name(attributes, name),
         source,
         bool(graph.get("directed", False)),
         attributes,
@@ -90,7 +90,7 @@ def _read_graphml(text: str, name: str, source: str) -> RawGraph:
         raise
     except Exception as error:  # of the XML parser, of networkx, or of a value that it converts
         raise WorldError(f"{source} is no GraphML: {error}") from error
-    return RawGraph.of(graph, name=str(graph.graph.get("name") or name), source=source)
+    return RawGraph.of(graph, name=_name(graph.graph, name), source=source)
 
 
 def _read_yaml(text: str, name: str, source: str) -> RawGraph:
@@ -113,7 +113,13 @@ def _read_yaml(text: str, name: str, source: str) -> RawGraph:
         nodes.append((waypoint, _waypoint(node, where)))
         for edge in node.get("edges") or ():
             edges.append((waypoint, _taken(edge, "node", f"{where}: an edge"), {}))
-    return RawGraph(str(whole.get("name") or name), source, True, {}, nodes, edges)  # pyright: ignore[reportUnknownMemberType]
+    return RawGraph(_name(whole, name), source, True, {}, nodes, edges)  # pyright: ignore[reportUnknownMemberType]
+
+
+def _name(attributes: Mapping[str, Any], name: str) -> str:
+    """The name that a graph has, if it can be printed; else that of the file."""
+    given = attributes.get("name")
+    return given if isinstance(given, str) and given and given.isprintable() else name
 
 
 def _waypoint(node: Mapping[str, Any], where: str) -> Mapping[str, Any]:
@@ -126,7 +132,7 @@ def _waypoint(node: Mapping[str, Any], where: str) -> Mapping[str, Any]:
 
 def _mapping(value: Any, where: str) -> Mapping[str, Any]:
     if not isinstance(value, dict):
-        raise WorldError(f"{where} is {value!r:.40}; give names with values")
+        raise WorldError(f"{where} is {shown(value)}; give names with values")
     return value  # pyright: ignore[reportUnknownVariableType]
 
 

@@ -3,17 +3,47 @@
 from __future__ import annotations
 
 import json
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import WorldError
-from .raw import Attributes, Edges, RawGraph, number, some
+from .raw import Attributes, Edges, RawGraph, number, shown, some
 
 Floats = NDArray[np.float64]
 Ends = NDArray[np.int32]
 _AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry:
+    """Positions of places, bearings and lengths of ways; None where unknown."""
+
+    coordinates: Floats | None
+    bearings: Floats | None
+    lengths: Floats | None
+
+    @classmethod
+    def of(cls, raw: RawGraph, ends: Ends, edges: Edges, *, needed: bool) -> Geometry:
+        """What a graph tells of it; see `coordinates`, `bearings` and `lengths`."""
+        where = coordinates(raw, needed=needed)
+        return cls(where, bearings(raw, ends, edges, where), lengths(raw, ends, edges, where))
+
+    def poses(self) -> list[str]:
+        """What can be told of a pose, the most first."""
+        lies = self.coordinates is not None or (self.bearings is not None and self.lengths is not None)
+        return ["displacement"] * lies + ["bearing"] * (self.bearings is not None) + ["none"]
+
+    def order(self, sources: NDArray[np.int32]) -> NDArray[np.intp]:
+        """The ways by the place that they leave, and there by their bearings."""
+        return np.lexsort((np.zeros(len(sources)) if self.bearings is None else self.bearings, sources))
+
+    def ordered(self, order: NDArray[np.intp]) -> Geometry:
+        """The same with ways in this order."""
+        bearings, lengths = (None if values is None else values[order] for values in (self.bearings, self.lengths))
+        return Geometry(self.coordinates, bearings, lengths)
 
 
 def coordinates(raw: RawGraph, *, needed: bool) -> Floats | None:
@@ -26,7 +56,7 @@ def coordinates(raw: RawGraph, *, needed: bool) -> Floats | None:
     Raises:
         WorldError: some have none, or they are not two or three finite numbers each.
     """
-    found = [_position(attributes, f"{raw.source}: position of {node!r:.40}") for node, attributes in raw.nodes]
+    found = [_position(attributes, f"{raw.source}: position of {shown(node)}") for node, attributes in raw.nodes]
     without = [node for (node, _), position in zip(raw.nodes, found, strict=True) if position is None]
     if len(without) == len(found) or (without and not needed):
         return None
@@ -68,7 +98,7 @@ def lengths(raw: RawGraph, ends: Ends, edges: Edges, where: Floats | None) -> Fl
         given = np.where(np.isnan(given), apart, given)
     wrong = np.flatnonzero((given < 0.0) | ((given == 0.0) & (apart > 0.0)))  # two places may have one position
     if wrong.size:
-        source, target = (f"{raw.nodes[i][0]!r:.40}" for i in ends[wrong[0]])
+        source, target = (f"{shown(raw.nodes[i][0])}" for i in ends[wrong[0]])
         raise WorldError(
             f"{raw.source}: the way from {source} to {target} is {given[wrong[0]]:g} long; lengths are above 0"
         )
@@ -83,11 +113,11 @@ def _position(attributes: Attributes, where: str) -> tuple[float, ...] | None:
         try:
             value = json.loads(value)
         except ValueError as error:
-            raise WorldError(f"{where} is {value!r:.40}; write it as [x, y]") from error
+            raise WorldError(f"{where} is {shown(value)}; write it as [x, y]") from error
     if value is None:
         return None
     if not isinstance(value, list | tuple) or len(value) not in (2, 3):  # pyright: ignore[reportUnknownArgumentType]
-        raise WorldError(f"{where} is {value!r:.40}; use two or three numbers")
+        raise WorldError(f"{where} is {shown(value)}; use two or three numbers")
     return tuple(number(part, where) for part in value)  # pyright: ignore[reportUnknownVariableType]
 
 

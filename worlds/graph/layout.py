@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from reprlib import repr as shown
 from typing import Any
 
 import numpy as np
@@ -126,7 +127,7 @@ class Layout:
         try:
             return self._index[place]
         except (KeyError, TypeError) as error:
-            raise WorldError(f"{self.name!r} has no place {place!r:.40}; see chart.places") from error
+            raise WorldError(f"{self.name!r} has no place {shown(place)}; see chart.places") from error
 
     @cached_property
     def _index(self) -> dict[Any, int]:

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from reprlib import repr as shown
 from typing import TYPE_CHECKING, Any
 
 from ..errors import WorldError
 
 if TYPE_CHECKING:
     import networkx as nx
+
+_LONGEST = 32  # parts of a list that is a label
 
 Attributes = Mapping[str, Any]
 Edges = Sequence[tuple[Attributes, bool]]
@@ -52,18 +55,16 @@ class RawGraph:
                 yield target, source, attributes, True
 
 
-def label(value: Any, where: str) -> Any:
+def label(value: Any, where: str, *, depth: int = 3) -> Any:
     """A value as a label: lists become tuples.
 
     Raises:
-        WorldError: it is missing, NaN, or cannot be told from its like.
+        WorldError: it is missing, not finite, none of a word, a number or a short list of them.
     """
-    if isinstance(value, list | tuple):
-        return tuple(label(part, where) for part in value)  # pyright: ignore[reportUnknownVariableType]
-    if isinstance(value, float) and not math.isfinite(value):
-        raise WorldError(f"{where} is {value}; use a finite number or a word")
-    if not isinstance(value, str | int | float | bool):
-        raise WorldError(f"{where} is {value!r:.40}; use a word, a number, or a list of them")
+    if isinstance(value, list | tuple) and depth and len(value) <= _LONGEST:  # pyright: ignore[reportUnknownArgumentType]
+        return tuple(label(part, where, depth=depth - 1) for part in value)  # pyright: ignore[reportUnknownVariableType]
+    if not isinstance(value, str | int | float) or (isinstance(value, float) and not math.isfinite(value)):
+        raise WorldError(f"{where} is {shown(value)}; use a word, a finite number, or a short list of them")
     return value
 
 
@@ -78,10 +79,10 @@ def number(value: Any, where: str) -> float:
     except (TypeError, ValueError, OverflowError):
         found = math.nan
     if not math.isfinite(found):
-        raise WorldError(f"{where} is {value!r:.40}; use a finite number")
+        raise WorldError(f"{where} is {shown(value)}; use a finite number")
     return found
 
 
 def some(names: Sequence[Any], *, most: int = 5) -> str:
     """The first few names, for messages."""
-    return ", ".join(f"{name!r:.40}" for name in names[:most]) + (", ..." if len(names) > most else "")
+    return ", ".join(f"{shown(name)}" for name in names[:most]) + (", ..." if len(names) > most else "")

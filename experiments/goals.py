@@ -1,0 +1,77 @@
+"""Goals that can be reached: labels, rooms that are closed, and the shortest way."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from math import inf
+from typing import Any, cast
+
+from ..model import CogmapError
+from ..worlds import CanClose, Chart, Label, Place, WorldError, offered, shortest_path
+from .session import World, chart_of
+
+MOST_LABELS = 40  # listed in an error
+
+
+def check_goal(
+    world: World, goal: Label, *, weight: float = 1.0, closed: Collection[Place] = (), known: bool = True
+) -> None:
+    """Refuse a goal that cannot be reached, or is not preferred, before anything is walked.
+
+    Raises:
+        CogmapError: no room has the label, a weight that is not above 0 or not finite, or rooms to close that are not
+            there, leave no way to the goal from a room that is open, or are given for an unexplored world.
+        WorldError: a world without a chart, or whose rooms cannot be closed.
+    """
+    chart = chart_of(world)
+    labels = sorted(set(chart.sights.values()), key=lambda label: (str(type(label)), label))
+    if goal not in labels:
+        named = ", ".join(map(str, labels[:MOST_LABELS]))
+        more = f" and {len(labels) - MOST_LABELS} more" if len(labels) > MOST_LABELS else ""
+        raise CogmapError(f"navigate: no room of maze {chart.name!r} has label {goal!r}; use one of {named}{more}")
+    if not 0.0 < weight < inf:
+        raise CogmapError(f"navigate: weight is {weight}; use a log preference above 0, in nats")
+    for room in closed:
+        if room not in chart.sights:
+            name = chart.name
+            raise CogmapError(f"close: maze {name!r} has no room at {room}; `cogmap worlds {name}` shows them")
+    if closed and not known:
+        raise CogmapError(
+            "close: rooms close after exploring, and this agent sets out unexplored; leave one of them out"
+        )
+    if closed and chart is not world:
+        offered(world, CanClose, "close")
+    for room in chart.places if closed else ():
+        if room not in closed:
+            shortest(chart, room, goal, closed)
+
+
+def parse_goal(world: World, text: str) -> Label:
+    """The label that `text` names in this world: a whole number where its labels are numbers, else a word.
+
+    Raises:
+        CogmapError: no room has that label.
+    """
+    words = any(isinstance(label, str) for label in chart_of(world).sights.values())
+    goal = text if words or not (text.isascii() and text.isdecimal()) else int(text)
+    check_goal(world, goal)
+    return goal
+
+
+def shortest(chart: Chart, start: Place, goal: Label, closed: Collection[Place] = ()) -> int:
+    """Steps of the shortest path to the nearest room with the label that is open.
+
+    Raises:
+        CogmapError: there is no way.
+    """
+    steps: list[int] = []
+    for room in chart.places:
+        if chart.sights[room] == goal and room not in closed:
+            try:
+                steps.append(len(shortest_path(cast(Any, chart), start, room, closed=closed)) - 1)
+            except WorldError:
+                continue
+    if not steps:
+        rooms = ", ".join(map(str, sorted(closed)))
+        raise CogmapError(f"close: with {rooms} closed there is no way from {start} to label {goal!r}; leave one open")
+    return min(steps)

@@ -1,0 +1,134 @@
+"""Any agent in any world: the loop that every experiment is built on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import gymnasium as gym
+
+from ..agent import Agent, StepRecord
+from ..model import CogmapError
+
+
+class Walker(Protocol):
+    """Whatever answers an observation with an action."""
+
+    def step(self, observation: Any, /) -> int:
+        """The next action."""
+        ...
+
+
+World = gym.Env[Any, Any]
+Seen = tuple[Any, Mapping[str, Any]]
+"""What a world shows: an observation, for the agent, and an info, which no agent sees."""
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A choice that has been made and not been carried out yet.
+
+    Attributes:
+        step: its number, 0 at the first observation.
+        agent: who chose.
+        world: where.
+        observation: what the agent chose after.
+        info: what the world tells of the truth.
+        action: the choice.
+    """
+
+    step: int
+    agent: Walker
+    world: World
+    observation: Any
+    info: Mapping[str, Any]
+    action: int
+
+
+Watch = Callable[[Moment], object]
+"""Called after every choice, before it is carried out; an answer of True ends the run after this action."""
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """What came of a run.
+
+    Attributes:
+        agent: after its last observation.
+        actions: what it chose, one action an observation; all were carried out.
+        truth: where it truly was at each observation, `info["position"]` or `info["place"]`; empty where the world does
+            not say.
+        records: the agent's own records of these steps; empty for an agent that keeps no `trace`.
+        end: observation and info after the last action, which the agent has not seen; `run(..., begin=end)` goes on.
+        ended: whether the world ended the episode.
+    """
+
+    agent: Any
+    actions: tuple[int, ...]
+    truth: tuple[Any, ...]
+    records: tuple[StepRecord, ...]
+    end: Seen
+    ended: bool
+
+    @property
+    def observations(self) -> int:
+        """How many observations the agent took in."""
+        return len(self.actions)
+
+
+def run(
+    world: World,
+    agent: Walker | None = None,
+    *,
+    steps: int,
+    seed: int | None = None,
+    options: dict[str, Any] | None = None,
+    begin: Seen | None = None,
+    watch: Watch | None = None,
+) -> Run:
+    """Let an agent live in a world: it takes in an observation and chooses an action, which is carried out.
+
+    Args:
+        world: a Gymnasium environment.
+        agent: has `step(observation)`, which answers with an action; one that says `positions = True` is given the true
+            position as well. Unless given, a new `Agent(world.unwrapped.motions)`.
+        steps: observations that it takes in at most; fewer where the world ends the episode, or `watch` the run.
+        seed: of the world's reset, and of the new agent.
+        options: of the world's reset.
+        begin: what the world shows now, if it is not to be reset: the `end` of a run before.
+        watch: looks on.
+
+    Raises:
+        CogmapError: `steps` below 1, or no agent for a world without motions.
+    """
+    if steps < 1:
+        raise CogmapError(f"run: steps is {steps}; use 1 or more")
+    agent = _new_agent(world, seed) if agent is None else agent
+    observation, info = world.reset(seed=seed, options=options) if begin is None else begin
+    kept = len(getattr(agent, "trace", ()))
+    actions, truth, ended, stop = list[int](), list[Any](), False, False
+    for step in range(steps):
+        where = info.get("place", info.get("position"))
+        told = {**observation, "position": where} if getattr(agent, "positions", False) else observation
+        action = agent.step(told)
+        actions.append(action)
+        truth.append(where)
+        if watch is not None:
+            stop = watch(Moment(step, agent, world, observation, info, action)) is True
+        observation, _, terminated, truncated, info = world.step(action)
+        ended = terminated or truncated
+        if ended or stop:
+            break
+    known = () if None in truth else tuple(truth)
+    return Run(agent, tuple(actions), known, tuple(getattr(agent, "trace", ())[kept:]), (observation, info), ended)
+
+
+def _new_agent(world: World, seed: int | None) -> Agent:
+    motions = getattr(world.unwrapped, "motions", None)
+    if motions is None:
+        raise CogmapError(
+            "run: the world has no motions, so no agent can be made for it; give one: "
+            "run(world, Agent({name: displacement, …}), steps=…)"
+        )
+    return Agent(motions, seed=seed)

@@ -1,0 +1,90 @@
+"""A few targets without the rest: what cannot tell anything about them is left out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...model import CogmapError, FactorGraph, FloatArray, IntArray
+from ..evidence import Given
+from . import elimination
+from .bucket_tree import BucketTree
+from .elimination import Order
+from .problem import reduce
+
+
+@dataclass(frozen=True, slots=True)
+class TargetSolution:
+    """The posterior of some variables.
+
+    Attributes:
+        graph: the graph.
+        given: what is known.
+        memory: bytes that a query may take.
+        tree: of what is left of the graph.
+    """
+
+    graph: FactorGraph
+    given: Given
+    memory: float
+    tree: BucketTree
+
+    @property
+    def log_evidence(self) -> float:
+        """log Z, by a query of its own."""
+        problem = reduce(self.graph, self.given, factors=_needed(self.graph, self.given, ()))
+        return elimination.solve(problem, None, self.memory).log_evidence
+
+    def joint(self, names: Sequence[str]) -> FloatArray:
+        """P(names | evidence), one axis a name; each of them a target."""
+        return self.tree.joint(names)
+
+    def entropy(self) -> float:
+        """Not known."""
+        raise CogmapError("posterior: the entropy needs every variable; ask without `targets`")
+
+    def sample(self, count: int, rng: np.random.Generator) -> IntArray:
+        """Not known."""
+        raise CogmapError("posterior: a sample needs every variable; ask without `targets`")
+
+
+def solve(graph: FactorGraph, given: Given, targets: Sequence[str], order: Order, memory: float) -> TargetSolution:
+    """The posterior of the targets from the factors that matter to them.
+
+    Left out are barren variables (see `Wiring.needed`), and parts that the evidence cuts off, if the evidence is
+    certainly possible there. Errors as for `elimination.solve`.
+    """
+    numbers = [graph.wiring.number[name] for name in targets]
+    factors = _connected(graph, given, _needed(graph, given, numbers), numbers)
+    problem = reduce(graph, given, factors=factors, keep=numbers)
+    return TargetSolution(graph, given, memory, elimination.solve(problem, order, memory))
+
+
+def _needed(graph: FactorGraph, given: Given, targets: Sequence[int]) -> list[int]:
+    number = graph.wiring.number
+    return graph.wiring.needed({*targets, *given.soft, *(number[name] for name in given.labels)})
+
+
+def _connected(graph: FactorGraph, given: Given, factors: Sequence[int], targets: Sequence[int]) -> list[int]:
+    """Those of the factors that variables without a fixed label connect with the targets, and those with zeros."""
+    wiring, fixed = graph.wiring, given.fixed
+    left, reached = set(factors), set[int]()
+    seen = set(targets)
+    waiting = list(targets)
+    while waiting:
+        i = waiting.pop()
+        if i in fixed:
+            continue
+        for at in wiring.touching[i]:
+            if at in left:
+                left.discard(at)
+                reached.add(at)
+                for j in wiring.scopes[at]:
+                    if j not in seen:
+                        seen.add(j)
+                        waiting.append(j)
+    if all(wiring.factors[at].positive for at in left):
+        left = set[int]()
+    return sorted(reached | left)
