@@ -2,6 +2,7 @@
 
     python benchmarks/inference.py
     python benchmarks/inference.py --windows 10 --supports 5 10 20 40 --json inference.json
+    python benchmarks/inference.py --networks FOLDER     published networks instead, see networks.py
 
 The graphs are those that an agent emits when it is lost: every one of `support` places of a hall that it has
 walked through, all of one sight, holds mass at each of the `window` steps. What is asked is what learning after
@@ -16,6 +17,7 @@ from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
+import networks
 import numpy as np
 from cogmap.inference import infer
 from cogmap.model import CognitiveMap, FactorGraph, Motions, Percept, Slice, take_slice, window_graph
@@ -112,12 +114,16 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--engines", nargs="+", default=list(ENGINES), choices=ENGINES)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--json", type=json_path)
+    parser.add_argument("--networks", nargs=argparse.REMAINDER, help="a folder of networks, and options of networks.py")
     return parser.parse_args(given)
 
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
     asked = _arguments(given)
+    if asked.networks is not None:
+        networks.main(asked.networks)
+        return
     print("milliseconds a window, median of", asked.runs)
     print("window  support " + "".join(f"{engine:>9}" for engine in asked.engines) + "   log Z differs by")
     rows: list[dict[str, Any]] = []

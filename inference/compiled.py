@@ -57,6 +57,11 @@ class CompiledGraph:
         self._plan = plan_elimination(self._problem, order, known=known, memory=memory)
         self._trees: dict[tuple[frozenset[int], frozenset[int]], _Tree] = {}
 
+    @property
+    def bytes(self) -> float:
+        """What products and messages take, without evidence."""
+        return 8.0 * self._plan.entries
+
     def infer(self, evidence: AllEvidence | None = None, *, pairs: Iterable[Sequence[Name]] = ()) -> Posterior:
         """The posterior, as `infer` of the graph gives it.
 

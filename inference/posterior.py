@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -13,6 +14,8 @@ from .evidence import Given
 from .exact import Solution, entropy
 
 Name = str | Variable
+LARGEST_JOINT = 2**28
+"""Entries of the largest joint that is handed out."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +68,10 @@ class Posterior:
         if (joint := self._joints.get(key)) is None:
             if len(set(key)) < len(key):
                 raise CogmapError(f"joint: {', '.join(key)}: a variable is named twice; name each once")
+            if (size := math.prod(self.graph.variable_named(name).cardinality for name in key)) > LARGEST_JOINT:
+                raise CogmapError(
+                    f"joint: {len(key)} variables have {size:.3g} entries together; ask for fewer at once"
+                )
             joint = self._solution.joint(key)
             joint.setflags(write=False)
             if len(key) == 1:
@@ -74,6 +81,14 @@ class Posterior:
     def probability(self, name: Name, label: Hashable) -> float:
         """P(name = label | evidence)."""
         return float(self.marginal(name)[self.graph.variable_named(name).index(label)])
+
+    def standard_error(self, *names: Name) -> FloatArray:
+        """Standard error of each entry of `joint(*names)`; 0 of an exact posterior.
+
+        Raises:
+            CogmapError: the approximation has none.
+        """
+        return self._solution.standard_error([self.graph.variable_named(name).name for name in names])
 
     @property
     def entropy(self) -> float:
@@ -109,6 +124,9 @@ class Posterior:
         """E[log f(x_f)] under the posterior, in nats; 0 log 0 = 0."""
         if isinstance(factor, str):
             factor = self.graph.factor_named(factor)
+        if (listed := self._solution.entries(factor)) is not None:
+            rows, probabilities = listed
+            return expected_log(probabilities, factor.at(list(rows.T)))
         return expected_log(self.joint(*factor.scope), factor.dense())
 
     def expected_counts(self, table: object) -> FloatArray:

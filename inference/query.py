@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
 
 from ..model import AllEvidence, CogmapError, FactorGraph, Variable
+from .approximate import APPROXIMATIONS, Loopy, Sampling
 from .evidence import Given, given
 from .exact import (
     ENGINES,
@@ -25,7 +27,7 @@ from .exact import (
 )
 from .posterior import MostProbable, Name, Posterior
 
-Engine = str
+Engine = str | Loopy | Sampling
 
 
 def infer(
@@ -43,9 +45,12 @@ def infer(
     Args:
         graph: the graph; evidence given by `graph.observe` counts too.
         evidence: by variable (its name, or itself) a label, or likelihoods of labels.
-        targets: the variables asked for; whatever cannot tell anything about them is left out. All by default.
+        targets: the variables asked for; the numpy engine leaves out whatever cannot tell anything about them. All
+            by default.
         pairs: sets of variables (two, three, ...) whose joints are wanted at once; others can be asked for later.
         engine: exact are `"numpy"` (bucket elimination), `"gtsam"`, and `"brute"` (enumeration, small graphs).
+            Approximations, for what is too large, are `"loopy"` and `"sampling"`, or a `Loopy` or `Sampling` with
+            other options; the posterior then says how good it is (`posterior.approximation`).
         order: order of elimination, all latent variables; by default the cheapest of several.
         memory: bytes that products and messages may take.
 
@@ -57,11 +62,15 @@ def infer(
     wanted = checked_pairs(graph, pairs)
     asked = None if targets is None else checked_targets(graph, targets)
     known = given(graph, evidence)
-    _check_engine(engine)
-    solution = solve(graph, known, engine, order=order, memory=memory, asked=asked)
-    posterior = Posterior(graph, engine, None, known, solution, {})
-    joints = {names: posterior.joint(*names) for names in wanted}
-    return Posterior(graph, engine, None, known, solution, joints)
+    method = APPROXIMATIONS.get(engine, engine) if isinstance(engine, str) else engine
+    if isinstance(method, str):
+        name, report = _exact(method, also=(*APPROXIMATIONS, "Loopy(…)", "Sampling(…)")), None
+        solution = solve(graph, known, name, order=order, memory=memory, asked=asked)
+    else:
+        solution = method.solve(reduce(graph, known))
+        name, report = method.name, solution.report
+    posterior = Posterior(graph, name, report, known, solution, {})
+    return replace(posterior, _joints={names: posterior.joint(*names) for names in wanted})
 
 
 def most_probable(
@@ -78,8 +87,7 @@ def most_probable(
     """
     graph = graph.copy()
     known = given(graph, evidence)
-    _check_engine(engine)
-    labels = maximise(graph, known, engine, order=order, memory=memory)
+    labels = maximise(graph, known, _exact(engine), order=order, memory=memory)
     return MostProbable(graph, log_product(graph, labels, known), labels)
 
 
@@ -116,7 +124,7 @@ def marginal_map(
     graph = graph.copy()
     names = checked_targets(graph, variables)
     known = given(graph, evidence)
-    problem = reduce(graph, known)
+    problem = reduce(graph, known, plain=True)
     indices, log_probability = marginal_maximum(problem, problem.nodes(names), memory)
     labels = problem.labels(indices)
     return MostProbable(graph, log_probability, {name: labels[name] for name in names})
@@ -154,6 +162,7 @@ def checked_targets(graph: FactorGraph, targets: Iterable[Name]) -> list[str]:
     return names
 
 
-def _check_engine(engine: str) -> None:
+def _exact(engine: str, *, also: Sequence[str] = ()) -> str:
     if engine not in ENGINES:
-        raise CogmapError(f"inference: no engine {engine!r}; choose one of {', '.join(ENGINES)}")
+        raise CogmapError(f"inference: no engine {engine!r}; choose one of {', '.join([*ENGINES, *also])}")
+    return engine

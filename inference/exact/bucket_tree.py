@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...model import FloatArray, IntArray
+from ...model import Factor, FloatArray, IntArray
 from .buckets import Buckets, Pass, buckets, forward
 from .ordering import elimination
 from .tables import Table
@@ -40,9 +40,11 @@ class BucketTree:
     def joint(self, names: Sequence[str]) -> FloatArray:
         """P(names | evidence), one axis a name; eliminates the rest afresh where no bucket holds them all."""
         problem = self.plan.problem
+        if len(names) == 1:
+            ((node, mapping),) = problem.located(names)
+            if node is not None and mapping is None:
+                return self.nodes((node,))
         wanted = problem.nodes(names)
-        if len(wanted) == 1 and len(names) == 1 and problem.located(names)[0][1] is None:
-            return self.nodes(wanted)
         return problem.expand(names, {wanted: self.nodes(wanted)})
 
     def nodes(self, wanted: tuple[int, ...]) -> FloatArray:
@@ -87,6 +89,21 @@ class BucketTree:
             self._calibrated.add(here)
         return self.over[at]
 
+    def standard_error(self, names: Sequence[str]) -> FloatArray:
+        """0: it is exact."""
+        return np.zeros_like(self.joint(names))
+
+    def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
+        """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
+        if factor.label not in self.plan.problem.entries:
+            return None
+        (node, mapping), rows = self.plan.problem.entries[factor.label]
+        assert node is not None
+        p = self.nodes((node,))
+        if mapping is None:
+            return rows, p
+        return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
+
     def entropy(self) -> float:
         """H = Σ_i H(x_i, S_i) - H(S_i), in nats."""
         beliefs = [self.belief(at) for at in range(len(self.over))]
@@ -103,10 +120,14 @@ class BucketTree:
         return self.plan.problem.columns(drawn)
 
 
-def tree_of(done: Pass, memory: float) -> BucketTree:
-    """The tree of a forward pass; the pass itself stays as it is."""
+def tree_of(done: Pass, memory: float, *, root: bool = False) -> BucketTree:
+    """The tree of a forward pass; the pass itself stays as it is.
+
+    With `root` the last bucket, that of the nodes kept, has its belief already.
+    """
+    calibrated = {len(done.over) - 1} if root else set[int]()
     over = list(done.over)
-    return BucketTree(done.buckets, dict(done.given), done.tables, done.log_scale, over, done.by, memory)
+    return BucketTree(done.buckets, dict(done.given), done.tables, done.log_scale, over, done.by, memory, calibrated)
 
 
 def draw(weights: FloatArray, rng: np.random.Generator) -> IntArray:

@@ -88,11 +88,11 @@ def elimination(
     if plan.order and (bytes_ > memory or _entries(problem.cards, plan.largest(problem.cards)) > largest):
         cluster = plan.largest(problem.cards)
         names = ", ".join(problem.names[i] for i in cluster[:8]) + (", …" if len(cluster) > 8 else "")
-        limit = f"memory={memory:.3g} bytes" if bytes_ > memory else f"{largest:.3g} entries a cluster"
+        limit = f"memory={memory:.3g}" if bytes_ > memory else f"the {largest:.3g} entries of a cluster it takes"
         raise CogmapError(
-            f"inference: needs {bytes_:.3g} bytes, above {limit}; the largest cluster ({names}) has "
-            f"{_entries(problem.cards, cluster):.3g} entries. Give more memory=, narrow the domains, observe one of "
-            "them, give another `order`, use engine='numpy', or an approximation: engine='loopy' or 'sampling'"
+            f"inference: needs {bytes_ / 1e9:.3g} GB ({bytes_:.3g} bytes), above {limit}; the largest cluster "
+            f"({names}) has {_entries(problem.cards, cluster):.3g} entries. Give more memory=, narrow the domains, "
+            "observe one of them, give another `order`, use engine='numpy', or approximate: engine='loopy', 'sampling'"
         )
     return plan
 

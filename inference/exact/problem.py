@@ -16,8 +16,6 @@ from .tables import Table
 
 DENSE = 2**16
 """Entries up to which a sparse factor is written out."""
-LARGEST_JOINT = 2**28
-"""Entries of the largest joint that is handed out."""
 
 Where = tuple[int | None, IntArray | int | None]
 
@@ -82,14 +80,7 @@ class Problem:
         return np.asarray(counted, dtype=np.float64).reshape(shape)
 
     def nodes(self, names: Sequence[str]) -> tuple[int, ...]:
-        """The nodes that carry `names`, each once, in order of appearance.
-
-        Raises:
-            CogmapError: the joint of `names` would have more than `LARGEST_JOINT` entries.
-        """
-        size = math.prod([self.graph.variable_named(name).cardinality for name in names])
-        if size > LARGEST_JOINT:
-            raise CogmapError(f"joint: {len(names)} variables have {size:.3g} entries together; ask for fewer at once")
+        """The nodes that carry `names`, each once, in order of appearance."""
         return tuple(dict.fromkeys(node for node, _ in self.located(names) if node is not None))
 
     def labels(self, indices: Sequence[int]) -> dict[str, Hashable]:
@@ -117,7 +108,12 @@ class Problem:
 
 
 def reduce(
-    graph: FactorGraph, given: Given, *, factors: Sequence[int] | None = None, keep: Iterable[int] = ()
+    graph: FactorGraph,
+    given: Given,
+    *,
+    factors: Sequence[int] | None = None,
+    keep: Iterable[int] = (),
+    plain: bool = False,
 ) -> Problem:
     """Slice the evidence out of every factor, then substitute determined variables.
 
@@ -126,6 +122,7 @@ def reduce(
         given: what is known.
         factors: numbers of the factors that count; all of them by default.
         keep: variables that are kept though none of these factors touches them.
+        plain: substitute nothing: each variable that is not known is a node.
 
     Raises:
         ImpossibleEvidence: a factor over known variables only is zero.
@@ -133,7 +130,7 @@ def reduce(
     wiring = graph.wiring
     if factors is None:
         factors, keep = range(len(wiring.factors)), range(len(wiring.variables))
-    return _Reduction(graph, given).problem(factors, keep)
+    return _Reduction(graph, given).problem(factors, keep, plain)
 
 
 class _Reduction:
@@ -149,7 +146,7 @@ class _Reduction:
         self.entries: dict[str, tuple[int, IntArray]] = {}
         self.log_scale = 0.0
 
-    def problem(self, factors: Iterable[int], keep: Iterable[int]) -> Problem:
+    def problem(self, factors: Iterable[int], keep: Iterable[int], plain: bool) -> Problem:
         factors, fixed = list(factors), self.given.fixed
         touched = {i for at in factors for i in self.wiring.scopes[at]}
         variables = sorted(touched.union(keep))
@@ -165,11 +162,13 @@ class _Reduction:
                 self._table((self.index[i],), values)
             elif i in fixed:
                 self._number(float(values[fixed[i]]), [self.wiring.variables[i].name])
-        return self._substituted(variables)
+        return self._substituted(variables, plain)
 
-    def _substituted(self, variables: Sequence[int]) -> Problem:
+    def _substituted(self, variables: Sequence[int], plain: bool) -> Problem:
         arrays = [table.values for table in self.tables]
-        parents, scopes, arrays = substitute(self.scopes, arrays, self.cards)
+        parents, scopes = {}, self.scopes
+        if not plain:
+            parents, scopes, arrays = substitute(self.scopes, arrays, self.cards)
         left = [i for i in range(len(self.members)) if i not in parents]
         new = {old: i for i, old in enumerate(left)}
 

@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from ...model import FloatArray, IntArray
+from ...model import Factor, FloatArray, IntArray
 
 
 class Solution(Protocol):
@@ -28,4 +28,12 @@ class Solution(Protocol):
 
     def sample(self, count: int, rng: np.random.Generator) -> IntArray:
         """`[variables, count]` indices of labels, drawn from the posterior."""
+        ...
+
+    def standard_error(self, names: Sequence[str]) -> FloatArray:
+        """Standard error of each entry of `joint`."""
+        ...
+
+    def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
+        """Of a large sparse factor the entries `[k, n]` that agree with the evidence, and P of each; else None."""
         ...

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...model import CogmapError, FactorGraph, FloatArray, IntArray
+from ...model import CogmapError, Factor, FactorGraph, FloatArray, IntArray
 from ..evidence import Given
 from . import elimination
 from .bucket_tree import BucketTree
@@ -34,12 +34,23 @@ class TargetSolution:
     @property
     def log_evidence(self) -> float:
         """log Z, by a query of its own."""
-        problem = reduce(self.graph, self.given, factors=_needed(self.graph, self.given, ()))
+        wiring, factors = self.graph.wiring, _needed(self.graph, self.given, ())
+        barren = {wiring.scopes[at][0] for at in set(range(len(wiring.scopes))).difference(factors)}
+        left = set(range(len(wiring.variables))).difference(barren)
+        problem = reduce(self.graph, self.given, factors=factors, keep=left)
         return elimination.solve(problem, None, self.memory).log_evidence
 
     def joint(self, names: Sequence[str]) -> FloatArray:
         """P(names | evidence), one axis a name; each of them a target."""
         return self.tree.joint(names)
+
+    def standard_error(self, names: Sequence[str]) -> FloatArray:
+        """0: it is exact."""
+        return np.zeros_like(self.joint(names))
+
+    def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
+        """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
+        return self.tree.entries(factor)
 
     def entropy(self) -> float:
         """Not known."""

@@ -9,11 +9,13 @@ from .factors import Factor, FloatArray, IntArray, SparseValues, log_bounds, spa
 from .structure import AllEvidence, Evidence, GraphStructure
 from .svg import MOST_DRAWN, graph_svg
 from .tables import LabelledTable, labelled, table
+from .template import Before, Template, before
 from .variables import Variable, shortened
 
 __all__ = [
     "MOST_DRAWN",
     "AllEvidence",
+    "Before",
     "ConditionalTable",
     "Evidence",
     "Factor",
@@ -24,7 +26,9 @@ __all__ = [
     "LabelledTable",
     "LearnableTable",
     "SparseValues",
+    "Template",
     "Variable",
+    "before",
     "equation",
     "graph_svg",
     "labelled",

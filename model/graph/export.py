@@ -89,12 +89,12 @@ def quoted(text: str) -> str:
 
 
 def _variable_text(graph: GraphStructure, variable: Variable) -> str:
-    """The name, with the label where evidence or a single label fixes it."""
+    """The name, with the label where evidence or a single label fixes it, and with ~ where it has soft evidence."""
     if variable.name in graph.evidence:
         return f"{variable.name}={graph.evidence[variable.name]!r}"
     if variable.observed and variable.cardinality == 1:
         return f"{variable.name}={variable.domain[0]!r}"
-    return variable.name
+    return f"{variable.name}~" if variable.name in graph.likelihoods else variable.name
 
 
 def _joined(parts: list[str], separator: str, most: int | None) -> str:

@@ -31,4 +31,6 @@ def _domain(variable: Variable, most: int = 6) -> str:
 def _role(graph: GraphStructure, variable: Variable) -> str:
     if variable.name in graph.evidence:
         return f"observed: {shown(graph.evidence[variable.name])}"
+    if variable.name in graph.likelihoods:
+        return "soft evidence"
     return "observed" if variable.observed else "latent"

@@ -39,6 +39,7 @@ def graph_to_dict(graph: GraphStructure) -> dict[str, Any]:
         "variables": [_variable(variable) for variable in graph.variables],
         "factors": [_factor(factor) | {"table": places.get(id(factor.table))} for factor in graph.factors],
         "evidence": {name: _label(label) for name, label in graph.evidence.items()},
+        "likelihoods": {name: list(values) for name, values in graph.likelihoods.items()},
         "tables": [{"prior": table.prior.tolist(), "counts": table.counts.tolist()} for table in tables],
     }
 
@@ -86,6 +87,7 @@ def same_graph(one: GraphStructure, other: GraphStructure) -> bool:
     """
     variables = [list(map(_variable_identity, graph.variables)) for graph in (one, other)]
     evidence = [{name: identity(label) for name, label in graph.evidence.items()} for graph in (one, other)]
+    evidence = [(labels, dict(graph.likelihoods)) for labels, graph in zip(evidence, (one, other), strict=True)]
     if variables[0] != variables[1] or evidence[0] != evidence[1] or len(one.factors) != len(other.factors):
         return False
     return all(_same_factor(a, b) for a, b in zip(one.factors, other.factors, strict=True))
@@ -125,7 +127,10 @@ def _restored(values: Mapping[str, Any], graph: AnyGraph) -> AnyGraph:
         table = None if part["table"] is None else tables[part["table"]]
         numbers = _numbers(part, [variable.cardinality for variable in scope])
         graph.factor(part["name"], scope, numbers, kind=part["kind"], equation=part["equation"], table=table)
-    return graph.observe_all({name: decode(label) for name, label in values["evidence"].items()})
+    graph = graph.observe_all({name: decode(label) for name, label in values["evidence"].items()})
+    for name, likelihoods in values.get("likelihoods", {}).items():  # files of before have none
+        graph = graph.observe(name, dict(zip(graph.variable_named(name).domain, likelihoods, strict=True)))
+    return graph
 
 
 def _numbers(part: Mapping[str, Any], shape: Sequence[int]) -> Any:

@@ -8,10 +8,11 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Self, cast
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import CogmapError
-from .conditional import LearnableTable
+from .conditional import ConditionalTable, LearnableTable
 from .factors import Factor, SparseValues
 from .variables import Variable
 from .wiring import Wiring
@@ -195,6 +196,19 @@ class GraphStructure:
         for label, factor in self._factors.items():
             if isinstance(factor.table, LearnableTable):
                 graph._factors[label] = replace(factor, values=factor.table.mean())
+        graph._wiring = None
+        return graph
+
+    def with_tables(self, prior: float = 1.0) -> Self:
+        """A new graph in which every conditional has a table to learn: `ConditionalTable`, the same prior everywhere.
+
+        A conditional is a factor that is normalised over its first variable. The values stay as they are until they
+        are `refreshed` or learned. Tables that are there already stay.
+        """
+        graph = self.copy()
+        for label, factor in self._factors.items():
+            if factor.table is None and factor.normalised:
+                graph._factors[label] = replace(factor, table=ConditionalTable(np.full(factor.shape, prior)))
         graph._wiring = None
         return graph
 

@@ -15,13 +15,14 @@ from ..factor_graph import FactorGraph
 from ..factors import FloatArray
 from .network import Conditional, conditionals_of, failed, network, texts
 
-_COMMENT = re.compile(r"/\*.*?\*/|(?<![^\s;{}])//[^\n]*", re.S)
-_HEAD = re.compile(r"\s*(network|variable|probability)\b\s*((?:\"[^\"]*\"|\([^)]*\)|[^{\"(])*)\{")
-_TYPE = re.compile(r"type\s+discrete\s*\[\s*(\d+)\s*\]\s*\{([^}]*)\}\s*;")
-_PROPERTY = re.compile(r"property\b(?:\"[^\"]*\"|[^;\"])*;")
-_ROW = re.compile(r"\s*(?:(table|default)\b|\(([^)]*)\))([^;]*);")
-_BRACE = re.compile(r"\"[^\"]*\"|[{}]")
-_WORD = re.compile(r"\"([^\"]*)\"|([^\s,\"]+)")
+_TEXT = r"\"[^\"]*\""
+_COMMENT = re.compile(rf"({_TEXT})|/\*.*?\*/|(?<![^\s;{{}}])//[^\n]*", re.S)
+_HEAD = re.compile(rf"\s*(network|variable|probability)\b((?:{_TEXT}|[^{{\"])*)\{{")
+_TYPE = re.compile(rf"type\s+discrete\s*\[\s*(\d+)\s*\]\s*\{{((?:{_TEXT}|[^}}\"])*)\}}\s*;")
+_PROPERTY = re.compile(rf"property\b(?:{_TEXT}|[^;\"])*;")
+_ROW = re.compile(rf"\s*(?:(table|default)\b|\(((?:{_TEXT}|[^)\"])*)\))([^;]*);")
+_BRACE = re.compile(rf"{_TEXT}|[{{}}]")
+_WORD = re.compile(r"\"([^\"]*)\"|([^\s,|\"]+)")
 _PLAIN = re.compile(r"[^\s,;|(){}\[\]\"]+")
 
 
@@ -33,7 +34,7 @@ def read_bif(text: str) -> FactorGraph:
     Raises:
         CogmapError: the text is malformed; it names the line.
     """
-    return _Reader(_COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)).graph()
+    return _Reader(_COMMENT.sub(lambda found: found[1] or _blank(found), text)).graph()
 
 
 def write_bif(graph: FactorGraph) -> str:
@@ -80,7 +81,7 @@ class _Reader:
         at = 0
         while found := _HEAD.match(self.text, at):
             end = self._end(found.end())
-            words = _words(found[2].strip().removeprefix("(").removesuffix(")").replace("|", ","))
+            words = _words(found[2].strip().removeprefix("(").removesuffix(")"))
             if found[1] == "variable":
                 self._variable(words, found.end(), end)
             elif found[1] == "probability":
@@ -96,7 +97,7 @@ class _Reader:
 
     def _variable(self, words: Sequence[str], begin: int, end: int) -> None:
         body = self.text[begin:end]
-        found = _TYPE.search(_PROPERTY.sub(lambda each: " " * len(each[0]), body))
+        found = _TYPE.search(_PROPERTY.sub(_blank, body))
         if len(words) != 1 or found is None:
             self._fail(begin, "expected 'variable NAME { type discrete [ n ] { labels }; }'")
         labels = _words(found[2])
@@ -171,3 +172,8 @@ class _Reader:
 
 def _words(text: str) -> list[str]:
     return [quoted or word for quoted, word in _WORD.findall(text)]
+
+
+def _blank(found: re.Match[str]) -> str:
+    """As many spaces and line breaks: what follows stays where it is."""
+    return re.sub(r"[^\n]", " ", found[0])

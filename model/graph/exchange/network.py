@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,7 +32,7 @@ class Conditional:
     line: int
 
 
-def network(what: str, domains: dict[str, Sequence[str]], conditionals: Sequence[Conditional]) -> FactorGraph:
+def network(what: str, domains: Mapping[str, Sequence[str]], conditionals: Sequence[Conditional]) -> FactorGraph:
     """The graph of a file's variables and conditionals, columns scaled to sum to 1.
 
     Raises:
