@@ -269,7 +269,7 @@ class _Rows:
         )
 
 
-def _columns(data: Data) -> tuple[dict[str, Sequence[Hashable]], int]:
+def _columns(data: Data) -> tuple[Mapping[str, Sequence[Hashable]], int]:
     """Labels by variable, and the number of rows."""
     if isinstance(data, Mapping) or hasattr(data, "columns"):
         columns = {str(name): list(column) for name, column in cast(Any, data).items()}

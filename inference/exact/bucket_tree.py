@@ -10,11 +10,12 @@ import numpy as np
 from ...model import Factor, FloatArray, IntArray
 from .buckets import Buckets, Pass, buckets, forward
 from .ordering import elimination
+from .solution import Solution
 from .tables import Table
 
 
 @dataclass(frozen=True, slots=True)
-class BucketTree:
+class BucketTree(Solution):
     """A tree of buckets in order of elimination; each is calibrated when it is asked for.
 
     Attributes:
@@ -88,10 +89,6 @@ class BucketTree:
             self.over[here] = self.over[here] * ratio
             self._calibrated.add(here)
         return self.over[at]
-
-    def standard_error(self, names: Sequence[str]) -> FloatArray:
-        """0: it is exact."""
-        return np.zeros_like(self.joint(names))
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
         """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
