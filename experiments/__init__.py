@@ -9,18 +9,19 @@ if TYPE_CHECKING:
     from .cells import Cell, Row, run_cell, run_cells
     from .executors import workers
     from .exploring import ExploreRun, Walk, exploration, explore, explore_many, summarise, walk
-    from .goals import parse_goal
-    from .kidnapping import KidnapRun, kidnap, kidnap_many, kidnap_result
+    from .goals import WEIGHT, check_goal, parse_goal
+    from .kidnapping import KidnapRun, check_kidnap, kidnap, kidnap_many, kidnap_result
     from .knowledge import BELIEVED, Truth
     from .ledger import Ledger
-    from .navigating import WEIGHT, NavigateRun, navigate, navigate_many, navigate_result
+    from .navigating import NavigateRun, navigate, navigate_many, navigate_result
     from .oracle import frontier_steps, oracle_steps
-    from .output import check_outputs, write_json, write_picture
+    from .output import check_outputs, picture_of, unused, write_json, write_picture
     from .parts import AGENTS, CSCG, Maker, Parts
     from .pool import WorkerLostError, completed, map_seeds, map_tasks
-    from .running import Moment, Run, run
-    from .session import Options, Session, chart_of, default_steps, draw_start, explored, set_out
-    from .statistics import count, mean, number, spread, std
+    from .records import Record, mean, std
+    from .running import Moment, Run, Walker, run
+    from .session import Session, default_steps, draw_start, explored, set_out
+    from .text import count, number, spread
 
 __all__ = [
     "AGENTS",
@@ -34,15 +35,17 @@ __all__ = [
     "Maker",
     "Moment",
     "NavigateRun",
-    "Options",
     "Parts",
+    "Record",
     "Row",
     "Run",
     "Session",
     "Truth",
     "Walk",
+    "Walker",
     "WorkerLostError",
-    "chart_of",
+    "check_goal",
+    "check_kidnap",
     "check_outputs",
     "completed",
     "count",
@@ -65,6 +68,7 @@ __all__ = [
     "number",
     "oracle_steps",
     "parse_goal",
+    "picture_of",
     "run",
     "run_cell",
     "run_cells",
@@ -72,6 +76,7 @@ __all__ = [
     "spread",
     "std",
     "summarise",
+    "unused",
     "walk",
     "workers",
     "write_json",
@@ -79,8 +84,8 @@ __all__ = [
 ]
 
 _MODULES = (
-    "running pool executors statistics output ledger records parts knowledge oracle session goals exploring "
-    "kidnapping navigating cells"
+    "text pool executors running output ledger records parts knowledge oracle session goals exploring kidnapping "
+    "navigating cells"
 )
 
 

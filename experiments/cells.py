@@ -9,7 +9,7 @@ from functools import partial
 from hashlib import sha256
 from importlib.metadata import version
 from itertools import chain
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 from ..agent import Settings
 from ..baselines import CscgSettings
@@ -20,7 +20,7 @@ from .ledger import Ledger
 from .parts import Parts
 from .pool import WorkerLostError, completed
 from .records import Record
-from .session import checked_steps
+from .session import described, draw_start
 
 Key = tuple[str, str, str, str, int]
 """World, layout, agent, growth, seed."""
@@ -72,59 +72,53 @@ class Row(Record):
         return self.world, self.layout, self.agent, self.growth, self.run.seed
 
 
+class Options(TypedDict, total=False):
+    """What rows are made with.
+
+    Attributes:
+        settings: of the agent `cogmap`, but for its growth.
+        cscg: settings of the clone-structured graphs.
+        max_steps: moves after which a run gives up; by the size of its maze unless given.
+    """
+
+    settings: Settings | None
+    cscg: CscgSettings | None
+    max_steps: int | None
+
+
 def run_cells(
-    cells: Sequence[Cell],
-    *,
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    max_steps: int | None = None,
-    ledger: Ledger | None = None,
-    executor: Executor | None = None,
+    cells: Sequence[Cell], *, ledger: Ledger | None = None, executor: Executor | None = None, **options: Unpack[Options]
 ) -> Iterator[Row]:
     """A row of each cell: first those that the ledger has, then the others as they finish, each kept at once.
 
     Args:
         cells: what to explore; all different.
-        settings: of the agent `cogmap`, but for its growth.
-        cscg: settings of the clone-structured graphs.
-        max_steps: moves after which a run gives up; by the size of its maze unless given.
         ledger: keeps the rows.
         executor: where the runs are made, in this process if None. But for the order and the seconds the rows do
             not depend on it.
+        options: see `cells.Options`.
 
     Raises:
         CogmapError: a cell is bad or given twice, the ledger is of other settings, or a worker was killed.
     """
-    parts = Parts(settings=settings or Settings(), cscg=cscg or CscgSettings())
-    left = _checked(cells, max_steps)
-    rows = [] if ledger is None else ledger.begin(Row.from_dict, **_made_with(parts, max_steps))
+    left = _checked(cells, options)
+    rows = [] if ledger is None else ledger.begin(Row.from_dict, **_made_with(options))
     kept = [row for row in rows if left.pop(row.key, None) is not None]
-    one = partial(run_cell, settings=settings, cscg=cscg, max_steps=max_steps)
-    new = (row for _, row in completed(one, list(left.values()), executor=executor))
+    new = (row for _, row in completed(partial(run_cell, **options), list(left.values()), executor=executor))
     return chain(kept, new if ledger is None else _keeping(new, ledger))
 
 
-def run_cell(
-    cell: Cell,
-    *,
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    max_steps: int | None = None,
-) -> Row:
-    """Make one exploration; see `run_cells`.
-
-    Raises:
-        CogmapError: no such agent or growth, a negative seed, or `max_steps` below 1.
-    """
-    parts = Parts(cell.agent, settings or Settings(), cscg or CscgSettings()).growing(cell.growth)
-    run = explore(cell.maze, cell.seed, agent=parts, max_steps=max_steps)
+def run_cell(cell: Cell, **options: Unpack[Options]) -> Row:
+    """Make one exploration; see `run_cells`."""
+    parts = _parts(options, cell.agent).growing(cell.growth)
+    run = explore(cell.maze, cell.seed, agent=parts, max_steps=options.get("max_steps"))
     return Row(cell.maze.name, layout_digest(cell.maze), cell.agent, cell.growth, run)
 
 
 def layout_digest(maze: Maze) -> str:
-    """Twelve hexadecimal digits that stand for the rooms and their sights."""
-    text = "\n".join(f"{row} {column} {maze.sights[row, column]!r}" for row, column in maze.rooms)
-    return sha256(text.encode()).hexdigest()[:12]
+    """Twelve hexadecimal digits that stand for the rooms, their sights, and the walls between them."""
+    lines = [f"{row} {column} {maze.sights[row, column]!r}" for row, column in maze.rooms]
+    return sha256("\n".join([*lines, *map(str, sorted(maze.walls))]).encode()).hexdigest()[:12]
 
 
 def _keeping(rows: Iterator[Row], ledger: Ledger) -> Iterator[Row]:
@@ -133,27 +127,29 @@ def _keeping(rows: Iterator[Row], ledger: Ledger) -> Iterator[Row]:
             ledger.append(row.to_dict())
             yield row
     except WorkerLostError as error:
-        raise WorkerLostError(
-            f"{error}; finished runs are kept in {ledger.path}, run the same again to go on"
-        ) from error
+        kept = f"finished runs are kept in {ledger.path}, run the same again to go on"
+        raise WorkerLostError(f"{error}; {kept}") from error
 
 
-def _checked(cells: Sequence[Cell], max_steps: int | None) -> dict[Key, Cell]:
+def _checked(cells: Sequence[Cell], options: Options) -> dict[Key, Cell]:
     checked: dict[Key, Cell] = {}
     for cell in cells:
-        Parts(cell.agent)  # refuses an unknown name
-        checked_steps("cells", cell.maze, max_steps)
+        described("cells", cell.maze, agent=cell.agent, max_steps=options.get("max_steps"))
+        draw_start("cells", cell.maze, cell.seed)
         if cell.growth not in GROWTHS:
             raise CogmapError(f"cells: no growth is called {cell.growth!r}; choose one of {', '.join(GROWTHS)}")
-        if cell.seed < 0:
-            raise CogmapError(f"cells: seed is {cell.seed}; use 0 or more")
         if cell.key in checked:
             raise CogmapError(f"cells: {cell.maze.name}, {cell.agent}, seed {cell.seed} is given twice; leave one out")
         checked[cell.key] = cell
     return checked
 
 
-def _made_with(parts: Parts, max_steps: int | None) -> dict[str, Any]:
-    own = parts.settings.to_dict()
-    del own["growth"]  # each row has its own
-    return {"cogmap": version("cogmap"), "settings": own, "cscg": parts.cscg.to_dict(), "max_steps": max_steps}
+def _parts(options: Options, agent: str = "cogmap") -> Parts:
+    return Parts(agent, options.get("settings") or Settings(), options.get("cscg") or CscgSettings())
+
+
+def _made_with(options: Options) -> dict[str, Any]:
+    parts = _parts(options)
+    own = {name: value for name, value in parts.settings.to_dict().items() if name != "growth"}  # each row has its own
+    made = {"settings": own, "cscg": parts.cscg.to_dict(), "max_steps": options.get("max_steps")}
+    return {"cogmap": version("cogmap"), **made}

@@ -62,7 +62,10 @@ def _processes(jobs: int) -> Generator[Executor]:
         yield pool
     except BaseException:
         pool.shutdown(wait=False, cancel_futures=True)
-        context.end()
+        for process in context.started:
+            process.terminate()
+        for process in context.started:
+            process.join(PATIENCE)
         raise
     finally:
         pool.shutdown()
@@ -73,19 +76,16 @@ class _Spawning(SpawnContext):
 
     def __init__(self) -> None:
         super().__init__()
-        self.started: list[SpawnProcess] = []
+        self.everyone: list[SpawnProcess] = []
 
     def Process(self, *args: Any, **options: Any) -> SpawnProcess:  # type: ignore[override]
-        self.started.append(SpawnProcess(*args, **options))
-        return self.started[-1]
+        self.everyone.append(SpawnProcess(*args, **options))
+        return self.everyone[-1]
 
-    def end(self) -> None:
-        """End them, whatever they do."""
-        started = [process for process in self.started if process.pid is not None]
-        for process in started:
-            process.terminate()
-        for process in started:
-            process.join(PATIENCE)
+    @property
+    def started(self) -> list[SpawnProcess]:
+        """Those that were started."""
+        return [process for process in self.everyone if process.pid is not None]
 
 
 class _Processes(ProcessPoolExecutor):
@@ -105,9 +105,5 @@ class _Processes(ProcessPoolExecutor):
 
 def _end_with_parent() -> None:
     """In a process of the pool: end with the one that started it, however that ends."""
-
-    def watch(parent: Any) -> None:
-        parent.join()
-        os._exit(1)
-
-    Thread(target=watch, args=[multiprocessing.parent_process()], daemon=True).start()
+    parent: Any = multiprocessing.parent_process()
+    Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()

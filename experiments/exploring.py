@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from time import perf_counter
 from typing import Any, Unpack
 
 from ..worlds import Place
+from .knowledge import Truth
 from .oracle import frontier_steps, oracle_steps
-from .pool import map_seeds
-from .records import OPTIONAL, Record
+from .records import OPTIONAL, Record, mean, ratio, std
 from .running import Watch
-from .session import Options, World, chart_of, checked_steps, maker_in, set_out
-from .statistics import mean, ratio, std
+from .session import Many, Options, World, chart_of, described, many, set_out
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,11 +48,13 @@ class Walk:
         run: its figures.
         path: the true rooms, the start first.
         walker: the agent, after its last observation.
+        truth: to compare its map with.
     """
 
     run: ExploreRun
     path: tuple[Place, ...]
     walker: Any
+    truth: Truth
 
     @property
     def finished(self) -> bool:
@@ -74,15 +73,15 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
 
     Raises:
         CogmapError: unknown agent, a negative seed, or `max_steps` below 1.
+        WorldError: a world without a chart.
     """
-    session = set_out("explore", world, seed, **options)
-    begin = perf_counter()
+    session, begin = set_out("explore", world, seed, **options), perf_counter()
     run, known = session.explore(watch)
     seconds = round(perf_counter() - begin, 4)
     oracle = oracle_steps(chart_of(world), session.start)
     instead = frontier_steps(chart_of(world), session.start) if oracle is None else None
     figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
-    return Walk(ExploreRun(seed, session.start, *figures), run.truth, session.agent)
+    return Walk(ExploreRun(seed, session.start, *figures), run.truth, session.agent, session.truth)
 
 
 def explore(world: World, seed: int = 0, **options: Unpack[Options]) -> ExploreRun:
@@ -90,24 +89,9 @@ def explore(world: World, seed: int = 0, **options: Unpack[Options]) -> ExploreR
     return walk(world, seed, **options).run
 
 
-def explore_many(
-    world: World,
-    *,
-    runs: int,
-    seed: int = 0,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-    **options: Unpack[Options],
-) -> list[ExploreRun]:
-    """Runs with the seeds `seed`, `seed + 1`, ...; each can be walked again alone with its seed.
-
-    But for `seconds` the result does not depend on `executor`.
-
-    Raises:
-        CogmapError: `runs` is below 1, or what `walk` and `map_tasks` raise.
-    """
-    one = partial(explore, world, **options)
-    return map_seeds(one, runs=runs, seed=seed, executor=executor, on_done=on_done)
+def explore_many(world: World, **options: Unpack[Many]) -> list[ExploreRun]:
+    """`explore` with the seeds `seed`, `seed + 1`, ..., each of which can be made again alone; see `Many`."""
+    return many(explore, world, options)
 
 
 def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
@@ -127,10 +111,9 @@ def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
     for name in ("steps_to_complete", "steps_to_visit_all", "steps_to_learn"):
         values = [getattr(run, name) for run in runs]
         summary |= {f"mean_{name}": mean(values), f"std_{name}": std(values)}
-    exact = all(run.oracle_steps is not None for run in runs)
+    exact, oracle = all(run.oracle_steps is not None for run in runs), [run.oracle_steps for run in done]
     summary["mean_oracle_steps"] = mean(run.oracle_steps for run in runs) if exact else None
-    steps, oracle = ([getattr(run, name) for run in done] for name in ("steps_to_complete", "oracle_steps"))
-    summary["ratio"] = ratio(steps, oracle) if exact else None
+    summary["ratio"] = ratio([run.steps_to_complete for run in done], oracle) if exact else None
     if not exact:
         summary["mean_frontier_steps"] = mean(run.frontier_steps for run in runs)
     return summary
@@ -138,7 +121,6 @@ def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
 
 def exploration(world: World, runs: Sequence[ExploreRun], **options: Unpack[Options]) -> dict[str, Any]:
     """World, agent, settings (none for a baseline that has none), runs and summary, as plain JSON values."""
-    maker, chart = maker_in(**options), chart_of(world)
-    most = checked_steps("explore", world, options.get("max_steps"))
+    chart, maker, most = described("explore", world, **options)
     head = {"world": chart.name, "agent": maker.agent, "settings": maker.to_dict(chart)}
     return {**head, "runs": [run.to_dict() for run in runs], "summary": summarise(runs, max_steps=most)}

@@ -1,21 +1,17 @@
-"""Kidnapping: moved without a word in a known maze, how soon does an agent know where it is?"""
+"""Kidnapping: moved without a word in a known world, how soon does an agent know where it is?"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any, Unpack
 
 from ..agent import Agent
 from ..model import CogmapError
 from ..worlds import CanDisplace, Place, offered, place_of
-from .pool import map_seeds
-from .records import Record
+from .records import Record, mean, std
 from .running import Moment
-from .session import Options, Session, World, chart_of, checked_steps, maker_in, set_out
-from .statistics import mean, std
+from .session import Many, Options, Session, World, chart_of, described, many, set_out
 
 AFTER = 20
 """Steps that a run goes on after recovery, before the map is checked."""
@@ -23,7 +19,7 @@ AFTER = 20
 
 @dataclass(frozen=True, slots=True)
 class KidnapRun(Record):
-    """One kidnapping. Where the maze was not explored within the steps allowed, nobody was moved.
+    """One kidnapping. Where the world was not explored within the steps allowed, nobody was moved.
 
     Attributes:
         seed: of the start room, of the agent, and of where it was moved to.
@@ -53,32 +49,28 @@ def kidnap(world: World, seed: int = 0, **options: Unpack[Options]) -> KidnapRun
     Args:
         world: a maze, or an environment with a chart in which agents can be moved.
         seed: of everything random; exploring goes as in `explore` with the same seed.
-        options: see `Options`; `max_steps` is for exploring, and again for recovering.
+        options: see `Options`.
 
     Raises:
-        CogmapError: an agent without a map, the world has one place only, a negative seed, or `max_steps` below 1.
+        CogmapError: an agent without beliefs, the world has one place only, a negative seed, or `max_steps` below 1.
+        WorldError: a world that lacks what this needs.
     """
     check_kidnap(world)
     session = set_out("kidnap", world, seed, **options)
-    if not isinstance(session.agent, Agent):
-        raise CogmapError(f"kidnap: agent {maker_in(**options).agent} believes nothing; use --agent cogmap")
+    agent = session.agent
+    if not isinstance(agent, Agent):
+        raise CogmapError(f"kidnap: agent {options.get('agent')} believes nothing; use --agent cogmap")
     session.explore()
     if session.steps is None:
         return KidnapRun(seed, session.start)
-    places = len(session.agent.map.places)
-    moved_to = session.displace(elsewhere=True)
-    steps, wrong = _recover(session)
-    intact = len(session.agent.map.places) == places and session.truth.learned(session.agent.map)
+    places, moved_to = len(agent.map.places), session.displace(elsewhere=True)
+    steps, wrong = _recover(session, agent)
+    intact = len(agent.map.places) == places and session.truth.learned(agent.map)
     return KidnapRun(seed, session.start, session.steps, moved_to, steps is not None, steps, wrong, intact)
 
 
 def check_kidnap(world: World) -> None:
-    """Refuse a world in which nobody can be moved.
-
-    Raises:
-        CogmapError: it has one place only.
-        WorldError: it has no chart, or does not displace.
-    """
+    """Refuse a world in which nobody can be moved, or that has one place only."""
     chart = chart_of(world)
     if chart is not world:
         offered(world, CanDisplace, "kidnap")
@@ -88,53 +80,40 @@ def check_kidnap(world: World) -> None:
         )
 
 
-def kidnap_many(
-    world: World,
-    *,
-    runs: int,
-    seed: int = 0,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-    **options: Unpack[Options],
-) -> list[KidnapRun]:
-    """Runs with the seeds `seed`, `seed + 1`, ...; the result does not depend on `executor`.
-
-    Raises:
-        CogmapError: `runs` is below 1, or what `kidnap` and `map_tasks` raise.
-    """
-    return map_seeds(partial(kidnap, world, **options), runs=runs, seed=seed, executor=executor, on_done=on_done)
+def kidnap_many(world: World, **options: Unpack[Many]) -> list[KidnapRun]:
+    """`kidnap` with the seeds `seed`, `seed + 1`, ..., each of which can be made again alone; see `Many`."""
+    return many(kidnap, world, options)
 
 
 def kidnap_result(world: World, runs: Sequence[KidnapRun], **options: Unpack[Options]) -> dict[str, Any]:
     """World, agent, settings, runs and summary, as plain JSON values; means are over the runs that got there."""
+    chart, maker, most = described("kidnap", world, **options)
     steps = [run.steps_to_recover for run in runs]
     summary = {
         "runs": len(runs),
         "explored": sum(run.steps_to_explore is not None for run in runs),
         "recovered": sum(run.recovered for run in runs),
         "map_intact": sum(run.map_intact is True for run in runs),
-        "max_steps": checked_steps("kidnap", world, options.get("max_steps")),
+        "max_steps": most,
         "mean_steps_to_recover": mean(steps),
         "std_steps_to_recover": std(steps),
         "most_steps_to_recover": max((step for step in steps if step is not None), default=None),
         "mean_steps_certain_but_wrong": mean(run.steps_certain_but_wrong for run in runs),
     }
-    maker, chart = maker_in(**options), chart_of(world)
     head = {"world": chart.name, "agent": maker.agent, "settings": maker.to_dict(chart)}
     return {**head, "runs": [run.to_dict() for run in runs], "summary": summary}
 
 
-def _recover(session: Session) -> tuple[int | None, int]:
+def _recover(session: Session, agent: Agent) -> tuple[int | None, int]:
     """Steps until certain and right, and how often certain but wrong, `AFTER` steps longer."""
-    agent, most, recovered, wrong = session.agent, session.most, None, 0
+    recovered, wrong = None, 0
 
     def watch(moment: Moment) -> bool:
         nonlocal recovered, wrong
         right = agent.belief.place == session.truth.place(agent.map, place_of(moment.info))
         wrong += agent.certain and not right
-        if recovered is None and agent.certain and right:
-            recovered = moment.step
-        return moment.step == (most if recovered is None else recovered + AFTER)
+        recovered = moment.step if recovered is None and agent.certain and right else recovered
+        return moment.step == (session.most if recovered is None else recovered + AFTER)
 
-    session.run(most + AFTER + 1, watch)
+    session.run(session.most + AFTER + 1, watch)
     return recovered, wrong

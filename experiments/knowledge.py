@@ -32,25 +32,19 @@ class Truth:
         motions: the actions.
 
     Attributes:
-        places: of the chart, in its order.
+        number: of each place, in the order of the chart.
     """
 
     def __init__(self, chart: Chart, start: Place, *, motions: Motions = GRID) -> None:
-        self.places = chart.places
-        self._number = {place: i for i, place in enumerate(chart.places)}
-        ahead = [[self._number[other] for other in chart.successors(place).values()] for place in chart.places]
-        self._offset = _offsets(ahead, self._number[start], motions.displacements)
+        self.number = {place: i for i, place in enumerate(chart.places)}
+        ahead = [[self.number[other] for other in chart.successors(place).values()] for place in chart.places]
+        self._offset = _offsets(ahead, self.number[start], motions.displacements)
         most = max(map(len, ahead))  # an action that a place has not leads back
-        padded = [[*row, *[number] * (most - len(row))] for number, row in enumerate(ahead)]
-        self._target = np.array(padded, dtype=np.int64)  # [R, K]
-
-    def number(self, place: Place) -> int:
-        """Of a place, in the order of the chart."""
-        return self._number[place]
+        self._target = np.array([[*row, *[i] * (most - len(row))] for i, row in enumerate(ahead)])  # [R, K]
 
     def place(self, map_: CognitiveMap, place: Place) -> int | None:
         """The place of a map that stands for a true one; None if there is none."""
-        offset = self._offset.get(self._number[place])
+        offset = self._offset.get(self.number[place])
         return None if offset is None else map_.place_at(offset)
 
     def visited(self, map_: CognitiveMap) -> bool:
@@ -81,13 +75,9 @@ class Truth:
         if isinstance(walker, Agent):
             return self.learned(walker.map)
         if isinstance(walker, CscgAgent):
-            return self.believed(walker.place_transitions(path, len(self.places)), walker.tries)
+            B, places = walker.place_transitions(path, len(self.number)), np.arange(len(self.number))
+            return all(bool((B[self._target[:, a], places, a] >= BELIEVED).all()) for a in walker.tries)
         return self.known(getattr(walker, "edges", {}))
-
-    def believed(self, B: NDArray[np.float64], actions: Sequence[int]) -> bool:
-        """Whether `B[next place, place, action]` gives every true transition by these actions `BELIEVED` or more."""
-        places = np.arange(len(self.places))
-        return all(bool((B[self._target[:, action], places, action] >= BELIEVED).all()) for action in actions)
 
     def known(self, edges: Mapping[tuple[Offset, int], Offset]) -> bool:
         """Whether `edges`, {(place, action): place} relative to the start, hold every true transition."""
@@ -104,11 +94,7 @@ class Truth:
 
 
 class Knowledge:
-    """Looks on at an exploration, and ends it once everything is known.
-
-    Args:
-        truth: what there is to know.
-        watch: looks on as well.
+    """Looks on at an exploration, with `watch` beside it, and ends it once everything is known.
 
     Attributes:
         visit_all: steps until every place had been entered, and is visited in the map of an agent that keeps one.
@@ -116,21 +102,19 @@ class Knowledge:
         complete: steps until both held at once. None of what never was, as with the others.
     """
 
-    def __init__(self, truth: Truth, *, watch: Watch | None = None) -> None:
-        self._truth, self._watch = truth, watch
-        self._path: list[int] = []
-        self._entered: set[int] = set()
+    def __init__(self, truth: Truth, watch: Watch | None = None) -> None:
+        self._truth, self._watch, self._path = truth, watch, list[int]()
+        self._left = set(truth.number.values())
         self.visit_all: int | None = None
         self.learn: int | None = None
         self.complete: int | None = None
 
     def __call__(self, moment: Moment) -> bool:
         """Look at a choice."""
-        here, walker = self._truth.number(place_of(moment.info)), moment.agent
-        self._path.append(here)
-        self._entered.add(here)
-        visited = len(self._entered) == len(self._truth.places)
-        visited = visited and (not isinstance(walker, Agent) or self._truth.visited(walker.map))
+        walker = moment.agent
+        self._path.append(self._truth.number[place_of(moment.info)])
+        self._left.discard(self._path[-1])
+        visited = not self._left and (not isinstance(walker, Agent) or self._truth.visited(walker.map))
         learned = self._truth.learned_by(walker, self._path)
         self.visit_all = moment.step if visited and self.visit_all is None else self.visit_all
         self.learn = moment.step if learned and self.learn is None else self.learn

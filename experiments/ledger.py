@@ -50,22 +50,17 @@ class Ledger(AbstractContextManager["Ledger"]):
         """Go on with what is there, its torn last line cut off, or write the header of a new file.
 
         Args:
-            read: makes something of a row.
+            read: makes something of a row; what it made of the rows is returned, the oldest first.
             made_with: plain JSON values on which rows depend: settings and versions, by name.
-
-        Returns:
-            What `read` made of the rows, the oldest first.
 
         Raises:
             CogmapError: the rows there were made with something else, or `read` refuses one.
         """
         here = json.loads(json.dumps(made_with))
         if self._header is not None and (other := _difference(self._header, here)):
-            name, there, wanted = other
-            raise CogmapError(
-                f"{self.path} was made with {name} = {json.dumps(there)}, this run has {json.dumps(wanted)}; "
-                "give another file, or remove it"
-            )
+            name, there, wanted = other[0], *map(json.dumps, other[1:])
+            made = f"{self.path} was made with {name} = {there}, this run has {wanted}"
+            raise CogmapError(f"{made}; give another file, or remove it")
         os.ftruncate(self._file.fileno(), self._end)
         if self._header is None:
             self._write({"schema": SCHEMA, "version": VERSION, **here})
@@ -107,9 +102,8 @@ class Ledger(AbstractContextManager["Ledger"]):
         except OSError as error:
             with suppress(OSError):
                 os.ftruncate(self._file.fileno(), self._end)
-            raise CogmapError(
-                f"cannot write {self.path} ({error.strerror or error}); its finished rows are kept, make room and go on"
-            ) from error
+            why = f"cannot write {self.path} ({error.strerror or error})"
+            raise CogmapError(f"{why}; its finished rows are kept, make room and go on") from error
         self._end += len(line)
 
 
@@ -136,13 +130,7 @@ def _lock(file: FileIO, path: Path) -> None:
 
 
 def _read(file: FileIO, path: Path) -> tuple[dict[str, Any] | None, list[dict[str, Any]], int]:
-    """Header (None of an empty file), rows, and how many bytes are whole lines.
-
-    A torn last line was being written when its process was killed.
-
-    Raises:
-        CogmapError: it is another kind of file, of another version, or a line before the last is no row.
-    """
+    """Header (None of an empty file), rows, and how many bytes are whole lines: the last one may be torn."""
     file.seek(0)
     lines = file.readall().splitlines(keepends=True)
     if not lines or (len(lines) == 1 and _torn_header(lines[0])):
@@ -153,10 +141,8 @@ def _read(file: FileIO, path: Path) -> tuple[dict[str, Any] | None, list[dict[st
             f"{path} keeps no runs of cogmap (its first line names no schema {SCHEMA}); give another file"
         )
     if header.get("version") != VERSION:
-        raise CogmapError(
-            f"{path} has version {header.get('version')} of the schema {SCHEMA}, this cogmap writes {VERSION}; "
-            "give another file"
-        )
+        other = f"{path} has version {header.get('version')} of the schema {SCHEMA}"
+        raise CogmapError(f"{other}, this cogmap writes {VERSION}; give another file")
     if rows and rows[-1] is None:
         del rows[-1], lines[-1]
     if None in rows:
@@ -181,11 +167,8 @@ def _parsed(line: bytes) -> dict[str, Any] | None:
 def _difference(there: Mapping[str, Any], here: Mapping[str, Any]) -> tuple[str, Any, Any] | None:
     """The first name with another value: its path, and both."""
     old, new = dict(_leaves(there)), dict(_leaves(here))
-    for name in {**new, **old}:
-        was, is_now = old.get(name, _UNSET), new.get(name, _UNSET)
-        if was != is_now and name not in ("schema", "version"):
-            return name, was, is_now
-    return None
+    pairs = ((name, old.get(name, _UNSET), new.get(name, _UNSET)) for name in {**new, **old})
+    return next((pair for pair in pairs if pair[1] != pair[2] and pair[0] not in ("schema", "version")), None)
 
 
 def _leaves(values: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:

@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import partial
 from typing import Any, Required, Unpack
 
 from ..worlds import CanClose, Label, Place, offered
-from .goals import check_goal, shortest
+from .goals import WEIGHT, check_goal, shortest
 from .oracle import frontier_search
-from .pool import map_seeds
-from .records import OPTIONAL, Record
+from .records import OPTIONAL, Record, mean, ratio
 from .running import Moment, Watch
-from .session import Options, Session, World, chart_of, checked_steps, draw_start, maker_in, set_out
-from .statistics import mean, ratio
-
-WEIGHT = 8.0
-"""Log preference of the goal over all other sights, in nats a step: more than a step into a room never seen can teach,
-log of the number of sights and log 2 for each of its three other doors, up to 370 sights."""
+from .session import Many, Options, Session, World, chart_of, described, draw_start, many, set_out
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +59,10 @@ class NavigateOptions(Options, total=False):
     closed: Sequence[Place]
 
 
+class NavigateMany(NavigateOptions, Many, total=False):
+    """The options of `navigate_many`."""
+
+
 def navigate(
     world: World,
     seed: int = 0,
@@ -99,7 +95,11 @@ def navigate(
     session, chart = set_out("navigate", world, seed, **options), chart_of(world)
     if not known:
         steps, stood = _reach(session, goal, weight, watch)
-        least, frontier = shortest(chart, session.start, goal), _frontier_to(world, goal, seed)
+        for_agent = draw_start("navigate", world, seed)[1]
+        least, frontier = (
+            shortest(chart, session.start, goal),
+            frontier_search(chart, session.start, for_agent, goal=goal),
+        )
         return NavigateRun(seed, session.start, steps is not None, steps, least, None, None, frontier, stood)
     session.explore(watch)
     if session.steps is None:
@@ -112,21 +112,9 @@ def navigate(
     return NavigateRun(seed, room, reached, steps, least, session.start, session.steps, steps_to_stand=stood)
 
 
-def navigate_many(
-    world: World,
-    *,
-    runs: int,
-    seed: int = 0,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-    **options: Unpack[NavigateOptions],
-) -> list[NavigateRun]:
-    """Runs with the seeds `seed`, `seed + 1`, ..., and the options of `navigate`; the same whatever `executor`.
-
-    Raises:
-        CogmapError: `runs` is below 1, or what `navigate` and `map_tasks` raise.
-    """
-    return map_seeds(partial(navigate, world, **options), runs=runs, seed=seed, executor=executor, on_done=on_done)
+def navigate_many(world: World, **options: Unpack[NavigateMany]) -> list[NavigateRun]:
+    """`navigate` with the seeds `seed`, `seed + 1`, ..., each of which can be made again alone; see `Many`."""
+    return many(navigate, world, options)
 
 
 def navigate_result(
@@ -144,13 +132,14 @@ def navigate_result(
     Totals, means and the ratio of the totals are over the runs that reached the goal; `failed` counts the others.
     The ratio is None where none reached it, and where every one of them started there but walked all the same.
     """
-    maker, chart, there = maker_in(**options), chart_of(world), [run for run in runs if run.reached]
+    chart, maker, most = described("navigate", world, **options)
+    there = [run for run in runs if run.reached]
     steps, least = [run.steps or 0 for run in there], [run.shortest or 0 for run in there]
     summary: dict[str, Any] = {"runs": len(runs), "reached": len(there), "failed": len(runs) - len(there)}
     if known:
         summary["explored"] = sum(run.steps_to_explore is not None for run in runs)
     summary |= {
-        "max_steps": checked_steps("navigate", world, options.get("max_steps")),
+        "max_steps": most,
         "total_steps": sum(steps),
         "total_shortest": sum(least),
         "ratio": ratio(steps, least),
@@ -189,9 +178,3 @@ def _reach(session: Session, goal: Label, weight: float, watch: Watch | None) ->
     session.agent.prefer({goal: weight})
     session.run(session.most + 1, look)
     return reached, stood
-
-
-def _frontier_to(world: World, goal: Label, seed: int) -> int | None:
-    """Steps until nearest-frontier search first stands in a room with the sight, from the start of `seed`."""
-    start, for_agent, _ = draw_start("navigate", world, seed)
-    return frontier_search(chart_of(world), start, lambda moment: moment.observation["sight"] == goal, seed=for_agent)

@@ -88,8 +88,7 @@ def _check(path: Path, target: Path) -> None:
             raise CogmapError(f"cannot write {path}: it is a folder or a device; give a file")
         if target.exists() and not os.access(target, os.W_OK):
             raise CogmapError(f"cannot write {path}: it is read-only; choose another file")
-        with tempfile.NamedTemporaryFile(dir=target.parent, prefix=f".{target.name[:80]}."):
-            pass
+        tempfile.NamedTemporaryFile(dir=target.parent, prefix=f".{target.name[:80]}.").close()
     except OSError as error:
-        reason = error.strerror or error
-        raise CogmapError(f"cannot write {path}: folder {target.parent}: {reason}; choose another file") from error
+        where = f"cannot write {path}: folder {target.parent}: {error.strerror or error}"
+        raise CogmapError(f"{where}; choose another file") from error

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, Self
 
@@ -11,8 +10,7 @@ import numpy as np
 from ..agent import Agent, Settings
 from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
 from ..model import CogmapError
-from ..worlds import Chart, HasChart, offered
-from .running import Walker
+from ..worlds import Chart, HasChart, World, offered
 
 CSCG = {
     "cscg": (False, "viterbi"),
@@ -25,14 +23,6 @@ CSCG = {
 AGENTS = ("cogmap", "frontier", "random", *CSCG)
 
 
-class Seeker(Walker, Protocol):
-    """A walker that can be sent to a sight."""
-
-    def prefer(self, sights: Mapping[Any, float]) -> None:
-        """Prefer these sights from now on, by log preferences; it stays where it believes to see the best."""
-        ...
-
-
 class Maker(Protocol):
     """Makes the agents of a sweep, each with a seed of its own; to go to other processes it must pickle."""
 
@@ -41,12 +31,12 @@ class Maker(Protocol):
         """What the agents are called in results."""
         ...
 
-    def make(self, world: Any, seed: np.random.SeedSequence) -> Seeker:
-        """A new agent that knows of the world only what its kind must be told."""
+    def make(self, world: Any, seed: np.random.SeedSequence, /) -> Any:
+        """A new agent for this world, with `step`, and for navigating with `prefer`."""
         ...
 
-    def to_dict(self, chart: Chart) -> dict[str, Any]:
-        """What it is made with in the world of this chart, as plain JSON values."""
+    def to_dict(self, chart: Chart, /) -> dict[str, Any]:
+        """What agents in the world of this chart are made with, as plain JSON values."""
         ...
 
 
@@ -56,7 +46,7 @@ class Parts:
 
     Attributes:
         agent: one of `AGENTS`.
-        settings: of `cogmap`; static growth gets the number of rooms where none is given.
+        settings: of `cogmap`; static growth gets the number of places where none is given.
         cscg: of the clone-structured graphs.
 
     Raises:
@@ -72,22 +62,15 @@ class Parts:
             raise CogmapError(f"no agent is called {self.agent!r}; choose one of {', '.join(AGENTS)}")
 
     @classmethod
-    def named(
-        cls, agent: str = "cogmap", *, growth: str, policies: str, look_ahead: int, engine: str = "numpy"
-    ) -> Self:
-        """From the options of the command line."""
-        return cls(agent, Settings(growth=growth, policies=policies, look_ahead=look_ahead, engine=engine))
-
-    @property
-    def growth(self) -> str:
-        """Name of the growth of `cogmap`."""
-        return self.settings.growth
+    def named(cls, agent: str = "cogmap", *, growth: str = "predicted", **options: Any) -> Self:
+        """From the options of the command line: growth, policies, look_ahead, engine."""
+        return cls(agent, Settings(growth=growth, **options))
 
     def growing(self, growth: str) -> Self:
         """The same with another growth."""
         return replace(self, settings=replace(self.settings, growth=growth))
 
-    def make(self, world: Any, seed: np.random.SeedSequence) -> Seeker:
+    def make(self, world: Any, seed: np.random.SeedSequence) -> Any:
         """A new agent that knows of the world only what its kind must be told.
 
         Args:
@@ -95,15 +78,20 @@ class Parts:
                 is given positions) to a clone-structured graph.
             seed: of the agent.
         """
-        motions, chart = world.unwrapped.motions, offered(world, HasChart, f"agent {self.agent}").chart
+        motions = offered(world, World, "an agent").motions
+        chart = offered(world, HasChart, f"agent {self.agent}").chart
         if self.agent == "cogmap":
             return Agent(motions, settings=self._fitted(chart), seed=int(seed.generate_state(1)[0]))
         if self.agent in CSCG:
-            positions, navigation = CSCG[self.agent]
-            seen = len(chart.places) if positions else len(set(chart.sights.values()))
-            return CscgAgent(
-                motions, observations=seen, positions=positions, navigation=navigation, settings=self.cscg, seed=seed
-            )
+            positions, how = CSCG[self.agent]
+            seen = len(chart.places if positions else set(chart.sights.values()))
+            told: dict[str, Any] = {
+                "observations": seen,
+                "positions": positions,
+                "navigation": how,
+                "settings": self.cscg,
+            }
+            return CscgAgent(motions, seed=seed, **told)
         return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
 
     def to_dict(self, chart: Chart) -> dict[str, Any]:
@@ -113,19 +101,5 @@ class Parts:
         return self.cscg.to_dict() if self.agent in CSCG else {}
 
     def _fitted(self, chart: Chart) -> Settings:
-        if self.settings.growth == "static" and self.settings.places is None:
-            return replace(self.settings, places=len(chart.places))
-        return self.settings
-
-
-def maker_of(agent: str | Maker, settings: Settings | None = None) -> Maker:
-    """What makes an agent given by name, with these settings of `cogmap`, or given as what makes it.
-
-    Raises:
-        CogmapError: no agent has this name, or settings are given beside what has its own.
-    """
-    if isinstance(agent, str):
-        return Parts(agent, settings or Settings())
-    if settings is not None:
-        raise CogmapError(f"agent {agent.agent} has settings of its own; leave the argument settings out")
-    return agent
+        unsaid = self.settings.growth == "static" and self.settings.places is None
+        return replace(self.settings, places=len(chart.places)) if unsaid else self.settings

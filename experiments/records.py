@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any, Self, cast, get_type_hints
+
+import numpy as np
 
 from ..model import CogmapError
 from ..worlds import Place
@@ -57,13 +59,29 @@ class Record:
         return cls(**made)
 
 
+def mean(values: Iterable[float | None]) -> float | None:
+    """The mean of those that are there; None where none is."""
+    there = [value for value in values if value is not None]
+    return float(np.mean(there)) if there else None
+
+
+def std(values: Iterable[float | None]) -> float | None:
+    """The standard deviation (population) of those that are there; None where none is."""
+    there = [value for value in values if value is not None]
+    return float(np.std(there)) if there else None
+
+
+def ratio(steps: Iterable[int | None], least: Iterable[int | None]) -> float | None:
+    """Sum over sum: 1 where neither takes a step, None where only the second takes none, or nothing is there."""
+    steps, total = [step or 0 for step in steps], sum(step or 0 for step in least)
+    return sum(steps) / total if total else 1.0 if steps and not sum(steps) else None
+
+
 def _leaves(cls: Any) -> Iterator[tuple[str, Any, bool]]:
-    hints = get_type_hints(cls)
+    """Name and type of each field that is no record, and whether it may be missing."""
     for part in fields(cls):
-        if is_dataclass(hints[part.name]):
-            yield from _leaves(hints[part.name])
-        else:
-            yield part.name, hints[part.name], bool(part.metadata.get("optional"))
+        hint = get_type_hints(cls)[part.name]
+        yield from _leaves(hint) if is_dataclass(hint) else [(part.name, hint, "optional" in part.metadata)]
 
 
 def _whole(value: Any) -> bool:
@@ -72,9 +90,8 @@ def _whole(value: Any) -> bool:
 
 def _place(value: Any) -> bool:
     """A room of a maze, or the name of a node."""
-    if isinstance(value, list):
-        return len(cast(list[Any], value)) == 2 and all(map(_whole, cast(list[Any], value)))
-    return _whole(value) or isinstance(value, str)
+    pair = isinstance(value, list) and len(cast(list[Any], value)) == 2 and all(map(_whole, cast(list[Any], value)))
+    return pair or _whole(value) or isinstance(value, str)
 
 
 _KINDS: dict[Any, tuple[str, Callable[[Any], bool]]] = {

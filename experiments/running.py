@@ -11,6 +11,9 @@ import gymnasium as gym
 from ..agent import Agent, StepRecord
 from ..model import CogmapError
 
+Seen = tuple[Any, Mapping[str, Any]]
+"""What a world shows: an observation, for the agent, and an info, which no agent sees."""
+
 
 class Walker(Protocol):
     """Whatever answers an observation with an action."""
@@ -18,11 +21,6 @@ class Walker(Protocol):
     def step(self, observation: Any, /) -> int:
         """The next action."""
         ...
-
-
-World = gym.Env[Any, Any]
-Seen = tuple[Any, Mapping[str, Any]]
-"""What a world shows: an observation, for the agent, and an info, which no agent sees."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +38,7 @@ class Moment:
 
     step: int
     agent: Walker
-    world: World
+    world: gym.Env[Any, Any]
     observation: Any
     info: Mapping[str, Any]
     action: int
@@ -57,7 +55,7 @@ class Run:
     Attributes:
         agent: after its last observation.
         actions: what it chose, one action an observation; all were carried out.
-        truth: where it truly was at each observation, `info["position"]` or `info["place"]`; empty where the world does
+        truth: where it truly was at each observation, `info["place"]` or `info["position"]`; empty where the world does
             not say.
         records: the agent's own records of these steps; empty for an agent that keeps no `trace`.
         end: observation and info after the last action, which the agent has not seen; `run(..., begin=end)` goes on.
@@ -78,7 +76,7 @@ class Run:
 
 
 def run(
-    world: World,
+    world: gym.Env[Any, Any],
     agent: Walker | None = None,
     *,
     steps: int,
@@ -92,7 +90,7 @@ def run(
     Args:
         world: a Gymnasium environment.
         agent: has `step(observation)`, which answers with an action; one that says `positions = True` is given the true
-            position as well. Unless given, a new `Agent(world.unwrapped.motions)`.
+            position as well. Unless given, a new `Agent` with the world's `motions`.
         steps: observations that it takes in at most; fewer where the world ends the episode, or `watch` the run.
         seed: of the world's reset, and of the new agent.
         options: of the world's reset.
@@ -104,31 +102,19 @@ def run(
     """
     if steps < 1:
         raise CogmapError(f"run: steps is {steps}; use 1 or more")
-    agent = _new_agent(world, seed) if agent is None else agent
+    if agent is None and not hasattr(world.unwrapped, "motions"):
+        raise CogmapError("run: the world has no motions to make an agent with; give one: run(world, Agent({…}), …)")
+    agent = agent or Agent(world.unwrapped.motions, seed=seed)  # type: ignore[attr-defined]
     observation, info = world.reset(seed=seed, options=options) if begin is None else begin
     kept = len(getattr(agent, "trace", ()))
     actions, truth, ended, stop = list[int](), list[Any](), False, False
-    for step in range(steps):
-        where = info.get("place", info.get("position"))
-        told = {**observation, "position": where} if getattr(agent, "positions", False) else observation
-        action = agent.step(told)
-        actions.append(action)
-        truth.append(where)
+    while len(actions) < steps and not (ended or stop):
+        truth.append(info.get("place", info.get("position")))
+        told = {**observation, "position": truth[-1]} if getattr(agent, "positions", False) else observation
+        actions.append(agent.step(told))
         if watch is not None:
-            stop = watch(Moment(step, agent, world, observation, info, action)) is True
-        observation, _, terminated, truncated, info = world.step(action)
+            stop = watch(Moment(len(actions) - 1, agent, world, observation, info, actions[-1])) is True
+        observation, _, terminated, truncated, info = world.step(actions[-1])
         ended = terminated or truncated
-        if ended or stop:
-            break
-    known = () if None in truth else tuple(truth)
-    return Run(agent, tuple(actions), known, tuple(getattr(agent, "trace", ())[kept:]), (observation, info), ended)
-
-
-def _new_agent(world: World, seed: int | None) -> Agent:
-    motions = getattr(world.unwrapped, "motions", None)
-    if motions is None:
-        raise CogmapError(
-            "run: the world has no motions, so no agent can be made for it; give one: "
-            "run(world, Agent({name: displacement, …}), steps=…)"
-        )
-    return Agent(motions, seed=seed)
+    where, records = () if None in truth else tuple(truth), tuple(getattr(agent, "trace", ())[kept:])
+    return Run(agent, tuple(actions), where, records, (observation, info), ended)

@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
+from concurrent.futures import Executor
 from contextlib import suppress
 from copy import deepcopy
 from dataclasses import dataclass, field
-from typing import Any, TypedDict, Unpack
+from functools import partial
+from typing import Any, Required, TypedDict, TypeVar, Unpack
 
 import gymnasium as gym
 import numpy as np
 
 from ..agent import Settings
 from ..model import CogmapError
-from ..worlds import CanDisplace, Chart, HasChart, Maze, MazeEnv, Place, WorldError, offered, place_of
+from ..worlds import CanDisplace, Chart, HasChart, Place, WorldError, offered, place_of, world_of
 from .knowledge import Knowledge, Truth
-from .parts import Maker, maker_of
+from .parts import Maker, Parts
+from .pool import map_seeds
 from .running import Run, Seen, Watch, run
 
-World = Maze | gym.Env[Any, Any]
-"""Where experiments take place: a maze, or an environment that has a chart; it is left as it is."""
+_Row = TypeVar("_Row")
+World = Chart | gym.Env[Any, Any]
+"""Where experiments take place: a chart, such as a maze, or an environment that has one; it is left as it is."""
 
 
 class Options(TypedDict, total=False):
@@ -34,6 +38,18 @@ class Options(TypedDict, total=False):
     agent: str | Maker
     settings: Settings | None
     max_steps: int | None
+
+
+class Many(Options, total=False):
+    """The same of `runs` runs, the first with `seed`; `executor` and `on_done` as for `map_seeds`.
+
+    But for seconds the rows do not depend on the executor.
+    """
+
+    runs: Required[int]
+    seed: int
+    executor: Executor | None
+    on_done: Callable[[], None] | None
 
 
 @dataclass(slots=True)
@@ -76,7 +92,7 @@ class Session:
         return self.truth.place(self.agent.map, self.place)
 
     def run(self, steps: int, watch: Watch | None = None) -> Run:
-        """Go on from where it is, for `steps` observations at most; see `running.run`."""
+        """Go on from where it is, for `steps` observations at most; see `cogmap.experiments.run`."""
         with suppress(WorldError):  # what was opened, closed or moved in the meantime shows
             self._seen = offered(self.world, CanDisplace, "this").observe(), {"place": self.place}
         done = run(self.world, self.agent, steps=steps, begin=self._seen, watch=watch)
@@ -85,21 +101,15 @@ class Session:
 
     def explore(self, watch: Watch | None = None) -> tuple[Run, Knowledge]:
         """Go on until every place was visited and every transition is believed, for `most` moves at most."""
-        knowledge = Knowledge(self.truth, watch=watch)
+        knowledge = Knowledge(self.truth, watch)
         done = self.run(self.most + 1, knowledge)
         self.steps = knowledge.complete
         return done, knowledge
 
     def displace(self, *, elsewhere: bool, but: Collection[Place] = ()) -> Place:
-        """Move it to a random place without a word, `elsewhere` to another one than it is in; answers with the place.
-
-        Those of `but` are left out.
-
-        Raises:
-            WorldError: nobody can be moved in this world.
-        """
+        """Move it to a random place without a word, but for `but`, `elsewhere` to another; answers with the place."""
         here = self.place if elsewhere else None
-        places = [place for place in self.truth.places if place not in but and place != here]
+        places = [place for place in self.truth.number if place not in but and place != here]
         place = places[int(self.rng.integers(len(places)))]
         self._seen = offered(self.world, CanDisplace, "moving an agent").displace(place), {"place": place}
         return place
@@ -112,37 +122,41 @@ def set_out(experiment: str, world: World, seed: int, **options: Unpack[Options]
         CogmapError: no agent has this name, a negative seed, or `max_steps` below 1.
         WorldError: a world without a chart.
     """
-    most, maker = checked_steps(experiment, world, options.get("max_steps")), maker_in(**options)
+    chart, maker, most = described(experiment, world, **options)
     start, for_agent, rng = draw_start(experiment, world, seed)
     for_world = np.random.SeedSequence(seed).spawn(4)[3].generate_state(1)[0]  # `draw_start` uses the first three
-    chart = chart_of(world)
-    own = MazeEnv(world) if isinstance(world, Maze) else deepcopy(world, {id(chart): chart})  # a chart never changes
+    own = world_of(chart) if world is chart else deepcopy(world, {id(chart): chart})  # a chart never changes
     return Session(own, maker.make(own, for_agent), start, rng, most, int(for_world))
 
 
 def explored(experiment: str, world: World, seed: int, **options: Unpack[Options]) -> Session:
-    """An agent that has explored the world as `explore` with the same seed would have.
-
-    Raises:
-        CogmapError, WorldError: what `set_out` raises.
-    """
+    """An agent that has explored the world as `explore` with the same seed would have; raises what `set_out` does."""
     session = set_out(experiment, world, seed, **options)
     session.explore()
     return session
 
 
-def maker_in(**options: Unpack[Options]) -> Maker:
-    """What makes the agents."""
-    return maker_of(options.get("agent", "cogmap"), options.get("settings"))
+def described(experiment: str, world: World, **options: Unpack[Options]) -> tuple[Chart, Maker, int]:
+    """The chart, what makes the agents, and the moves after which they give up; raises what `set_out` does."""
+    agent, settings, most = options.get("agent", "cogmap"), options.get("settings"), options.get("max_steps")
+    if settings is not None and not isinstance(agent, str):
+        raise CogmapError(f"agent {agent.agent} has settings of its own; leave the argument settings out")
+    most = default_steps(world) if most is None else most
+    if most < 1:
+        raise CogmapError(f"{experiment}: max_steps is {most}; use 1 or more")
+    return chart_of(world), Parts(agent, settings or Settings()) if isinstance(agent, str) else agent, most
+
+
+def many(experiment: Callable[..., _Row], world: World, options: Mapping[str, Any]) -> list[_Row]:
+    """Rows of an experiment; `options` are `Many`, and others of the experiment."""
+    how = {name: value for name, value in options.items() if name in ("runs", "seed", "executor", "on_done")}
+    own = {name: value for name, value in options.items() if name not in how}
+    return map_seeds(partial(experiment, world, **own), **how)
 
 
 def chart_of(world: World) -> Chart:
-    """The true map of a world.
-
-    Raises:
-        WorldError: it has none.
-    """
-    if isinstance(world, Maze):
+    """The true map of a world, or a `WorldError` that says what there is without one."""
+    if isinstance(world, Chart):
         return world
     try:
         return offered(world, HasChart, "this experiment").chart
@@ -153,18 +167,6 @@ def chart_of(world: World) -> Chart:
 def default_steps(world: World) -> int:
     """Moves after which an exploration counts as failed, unless told otherwise."""
     return 50 * len(chart_of(world).places) + 50
-
-
-def checked_steps(experiment: str, world: World, max_steps: int | None) -> int:
-    """`max_steps`, or `default_steps(world)` where it is None.
-
-    Raises:
-        CogmapError: it is below 1.
-    """
-    most = default_steps(world) if max_steps is None else max_steps
-    if most < 1:
-        raise CogmapError(f"{experiment}: max_steps is {most}; use 1 or more")
-    return most
 
 
 def draw_start(experiment: str, world: World, seed: int) -> tuple[Place, np.random.SeedSequence, np.random.Generator]:

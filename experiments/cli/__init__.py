@@ -15,13 +15,8 @@ from .replay import replay_command
 from .study import study_command
 from .worlds import worlds_command
 
-app = typer.Typer(
-    name="cogmap",
-    cls=CogmapGroup,
-    help="Agents that build their own map, as explicit discrete factor graphs.",
-    add_completion=False,
-    pretty_exceptions_enable=False,
-)
+ABOUT = "Agents that build their own map, as explicit discrete factor graphs."
+app = typer.Typer(name="cogmap", cls=CogmapGroup, help=ABOUT, add_completion=False, pretty_exceptions_enable=False)
 
 
 def _version(wanted: bool) -> None:
@@ -32,24 +27,25 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
+Version = Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")]
+
+
 @app.callback(invoke_without_command=True)
-def _cogmap(  # pyright: ignore[reportUnusedFunction]
-    context: typer.Context,
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
-    ] = False,
-) -> None:
+def _cogmap(context: typer.Context, version: Version = False) -> None:  # pyright: ignore[reportUnusedFunction]
     if context.invoked_subcommand is None:
         typer.echo(context.get_help())
 
 
-app.command("worlds")(worlds_command)
-app.command("explore")(explore_command)
-app.command("navigate")(navigate_command)
-app.command("kidnap")(kidnap_command)
-app.command("study")(study_command)
-app.command("replay")(replay_command)
-app.command("inspect")(inspect_command)
+for _command in (
+    worlds_command,
+    explore_command,
+    navigate_command,
+    kidnap_command,
+    study_command,
+    replay_command,
+    inspect_command,
+):
+    app.command(_command.__name__.removesuffix("_command"))(_command)
 
 
 def main() -> None:

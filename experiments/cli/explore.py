@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+from rich.markup import escape
 
+from ..text import number, say, say_saved, seeds_of, show_table, spread
 from .options import Agent, Dask, Jobs, LookAhead, Policies, Runs, Seed, Trace, World
+from .progress import counting, progress
 
 if TYPE_CHECKING:
-    from ..exploring import Walk
-    from ..parts import Parts
-    from ..running import Moment
+    from ...worlds import Chart
+    from .. import Moment, Parts, Walk
 
 MaxSteps = Annotated[int | None, typer.Option(min=1, help="Give up after so many; 50 a room + 50 unless given.")]
 Growth = Annotated[
@@ -55,41 +55,46 @@ def explore_command(
 
     Exit code 0, or 1 where the one walk (without --runs) did not complete.
     """
+    from ...model import GROWTHS
+    from ...views import explore_figure
     from ...worlds import load_world
-    from ..executors import workers
-    from ..exploring import exploration
-    from ..output import check_outputs, unused
-    from .tables import say, show_sweeps
+    from .. import Parts, check_outputs, exploration, explore_many, unused, workers, write_json, write_picture
     from .walk_text import show_walk
 
-    maze = load_world(world).maze
-    every = _parts(agent, growth, policies=policies, look_ahead=look_ahead, engine=engine)
-    sweep = runs is not None or len(every) > 1
+    place = load_world(world)
+    names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
+    options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine}
+    every = [Parts.named(agent, growth=name, **options) for name in names]
+    sweep, chart = runs is not None or len(every) > 1, place.chart
     _check(agent, len(every), save, trace, out, dask=dask is not None and not sweep)
-    picture = out if sweep or out is not None else unused(Path(f"{maze.name}.png"))
+    picture = out if sweep or out is not None else unused(Path(f"{chart.name}.png"))
     check_outputs([json, save, trace, picture], inputs=[world], picture=picture)
-    task = _Task(maze, seed, max_steps, save, trace, picture)
+    results: list[dict[str, Any]] = []
     if sweep:
-        with workers(jobs=jobs, dask=dask) as executor:
-            results = task.sweep(every, runs or 1, executor)
-        show_sweeps(results)
-        done = task.walk(every[0]) if save or trace or picture else None
-    else:
-        done = task.walk(every[0])
-        show_walk(maze, done, agent=agent)
-        results = [exploration(maze, [done.run], agent=every[0], max_steps=max_steps)]
-    task.keep(json, results, agent, done)
+        total = (runs or 1) * len(every)
+        with workers(jobs=jobs, dask=dask) as executor, counting(f"exploring {chart.name}", total) as one_more:
+            where: Any = {"runs": runs or 1, "seed": seed, "executor": executor, "on_done": one_more}
+            for parts in every:
+                made = explore_many(place, agent=parts, max_steps=max_steps, **where)
+                results.append(exploration(place, made, agent=parts, max_steps=max_steps))
+        _show_sweeps(results)
+    done = None if sweep and not (save or trace or picture) else _walk(place, chart, seed, every[0], max_steps, trace)
+    if done is not None and not sweep:
+        show_walk(chart, done, agent=agent)
+        results = [exploration(place, [done.run], agent=every[0], max_steps=max_steps)]
+    if json is not None:
+        write_json(json, results[0] if len(results) == 1 else results)
+    if done is not None and save is not None:
+        done.walker.save(save)
+    if done is not None and picture is not None:
+        known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
+        with progress("drawing", 1):
+            title = f"{chart.name}, {agent}, seed {seed}"
+            write_picture(picture, explore_figure(chart, done.path, title=title, **known))
+    say_saved(runs=json, agent=save, trace=trace, picture=picture)
     if done is not None and not sweep and not done.finished:
         say(f"Not complete after {len(done.path) - 1} steps; allow more with --max-steps.", style="bold red")
         raise typer.Exit(NOT_COMPLETE)
-
-
-def _parts(agent: str, growth: str, **options: Any) -> list[Parts]:
-    from ...model import GROWTHS
-    from ..parts import Parts
-
-    names = list(GROWTHS) if growth == "all" else [name.strip() for name in growth.split(",")]
-    return [Parts.named(agent, growth=name, **options) for name in dict.fromkeys(names)]
 
 
 def _check(agent: str, growths: int, save: Path | None, trace: Path | None, out: Path | None, *, dask: bool) -> None:
@@ -107,75 +112,38 @@ def _check(agent: str, growths: int, save: Path | None, trace: Path | None, out:
         raise CogmapError("--dask is for sweeps; give --runs as well, or leave --dask out")
 
 
-@dataclass(frozen=True, slots=True)
-class _Task:
-    """What was asked for, besides the parts of the agent."""
+def _walk(place: Any, chart: Chart, seed: int, parts: Parts, max_steps: int | None, trace: Path | None) -> Walk:
+    """Walk once, and record it."""
+    from ...worlds import place_of
+    from .. import walk
+    from .tracing import Tracing
 
-    maze: Any
-    seed: int
-    max_steps: int | None
-    save: Path | None
-    trace: Path | None
-    picture: Path | None
+    tracing, entered = Tracing(trace, chart, title=f"{chart.name}, seed {seed}"), set[Any]()
+    with progress(f"exploring {chart.name}, rooms", len(chart.places)) as report:
 
-    def sweep(self, every: Sequence[Parts], runs: int, executor: Any) -> list[dict[str, Any]]:
-        """Walk `runs` times with each of the parts."""
-        from ..exploring import exploration, explore_many
-        from .progress import counting
+        def watch(moment: Moment) -> None:
+            entered.add(place_of(moment.info))
+            report(len(entered))
+            tracing(moment)
 
-        results: list[dict[str, Any]] = []
-        with counting(f"exploring {self.maze.name}", runs * len(every)) as one_more:
-            for parts in every:
-                done = explore_many(
-                    self.maze,
-                    runs=runs,
-                    seed=self.seed,
-                    agent=parts,
-                    max_steps=self.max_steps,
-                    executor=executor,
-                    on_done=one_more,
-                )
-                results.append(exploration(self.maze, done, agent=parts, max_steps=self.max_steps))
-        return results
+        done = walk(place, seed, agent=parts, max_steps=max_steps, watch=watch)
+    tracing.save()
+    return done
 
-    def walk(self, parts: Parts) -> Walk:
-        """Walk once, and record it."""
-        from ...worlds import place_of
-        from ..exploring import walk
-        from .progress import progress
-        from .tracing import Tracing
 
-        tracing = Tracing(self.trace, self.maze, title=f"{self.maze.name}, seed {self.seed}")
-        entered: set[Any] = set()
-        with progress(f"exploring {self.maze.name}, rooms", len(self.maze.rooms)) as report:
-
-            def watch(moment: Moment) -> None:
-                entered.add(place_of(moment.info))
-                report(len(entered))
-                tracing(moment)
-
-            done = walk(self.maze, self.seed, agent=parts, max_steps=self.max_steps, watch=watch)
-        tracing.save()
-        return done
-
-    def keep(self, json: Path | None, results: list[dict[str, Any]], agent: str, done: Walk | None) -> None:
-        """Write what was asked for, and say where it is."""
-        from ..output import write_json, write_picture
-        from .progress import progress
-        from .tables import say_saved
-
-        if json is not None:
-            write_json(json, results[0] if len(results) == 1 else results)
-        if done is not None and self.save is not None:
-            done.walker.save(self.save)
-        if done is not None and self.picture is not None:
-            with progress("drawing", 1):
-                write_picture(self.picture, self._figure(done, agent))
-        say_saved(runs=json, agent=self.save, trace=self.trace, picture=self.picture)
-
-    def _figure(self, done: Walk, agent: str) -> Any:
-        from ...views import explore_figure
-
-        known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
-        title = f"{self.maze.name}, {agent}, seed {self.seed}"
-        return explore_figure(self.maze, done.path, title=title, **known)
+def _show_sweeps(results: list[dict[str, Any]]) -> None:
+    """A line for each sweep: how many completed, and after how many steps (mean ± standard deviation)."""
+    first, what = results[0], ("steps_to_visit_all", "steps_to_learn", "steps_to_complete")
+    world, grown = f"[bold]{escape(first['world'])}[/bold]", "growth" in first["settings"]
+    cells: list[list[str]] = []
+    for result in results:
+        summary, name = result["summary"], result["settings"].get("growth", result["agent"])
+        steps = (*(spread(summary, each) for each in what), number(summary["mean_oracle_steps"]))
+        done, ratio = f"{summary['completed']}/{summary['runs']}", number(summary["ratio"], digits=3)
+        cells.append([name, done, *steps, ratio])
+    headings = ("growth" if grown else "agent", ">done", ">visit all", ">learn", ">complete", ">oracle", ">ratio")
+    say(f"{world}, agent {first['agent']}: steps, mean ± standard deviation", markup=True)
+    show_table(headings, cells)
+    for (name, *_), result in zip(cells, results, strict=True):
+        if lost := seeds_of(result, lambda run: run["steps_to_complete"] is None):
+            say(f"{name}: not complete with seeds {lost}", style="red")

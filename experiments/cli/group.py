@@ -29,7 +29,9 @@ class CogmapGroup(TyperGroup):
         except (KeyboardInterrupt, typer.Abort):
             code = INTERRUPTED
         except _UsageError as error:
-            fail(_usage(error))
+            context: Any = getattr(error, "ctx", None)
+            command, said = context.command_path if context else "cogmap", error.format_message()  # type: ignore[attr-defined]
+            fail(f"{said.rstrip('.')}; see {command} --help")
         except ValueError as error:
             if not _ours(error):
                 raise
@@ -50,9 +52,3 @@ def _ours(error: ValueError) -> bool:
     from ...worlds import WorldError
 
     return isinstance(error, CogmapError | WorldError)
-
-
-def _usage(error: Any) -> str:
-    context = getattr(error, "ctx", None)
-    command = context.command_path if context else "cogmap"
-    return f"{error.format_message().rstrip('.')}; see {command} --help"

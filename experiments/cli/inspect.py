@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..text import say, say_saved
+
 if TYPE_CHECKING:
     from ...agent import Agent
 
@@ -45,14 +47,15 @@ def inspect_command(
 ) -> None:
     """Show what a saved agent believes: a summary, or what is asked for. The file stays as it is."""
     from ...agent import Agent
-    from ...model import write_whole
+    from ...model import CogmapError, growth_between, write_whole
     from ...views import explain
-    from ..output import check_outputs, write_json
+    from .. import check_outputs, write_json
     from . import inspect_facts as told
     from . import inspect_text as text
-    from .tables import say, say_saved
 
-    target = _graph_file(map_file, graph, of, out, growth_since=growth or since is None)
+    if since is not None and not growth:
+        raise CogmapError("inspect: --since is for --growth; add it")
+    target = _graph_file(map_file, graph, of, out)
     check_outputs([target, json], inputs=[map_file])
     agent = Agent.load(map_file)
     facts: dict[str, Any] = {"summary": told.summary(map_file, agent)}
@@ -60,69 +63,55 @@ def inspect_command(
         text.show_summary(facts["summary"])
     if places:
         facts["places"] = told.place_rows(agent)
-        text.show_places(facts["places"], limit)
+        text.show_rows("places", text.PLACES, facts["places"], limit)
     if transitions:
         facts["transitions"] = told.transition_rows(agent.map)
-        text.show_transitions(facts["transitions"], limit)
+        text.show_rows("transitions", text.TRANSITIONS, facts["transitions"], limit)
     if place is not None:
         facts["place"] = told.place_facts(agent, place)
         text.show_place(facts["place"], limit)
     if why:
-        explanation = explain(agent)
-        facts["why"] = explanation.to_dict()
-        say(explanation.text)
+        facts["why"] = explain(agent).to_dict()
+        say(explain(agent).text)
     if growth:
         facts["growth"] = told.growth_rows(agent.map, since or 0)
-        text.show_growth(agent.map, facts["growth"], limit)
+        say(growth_between(agent.map, since or 0))
+        text.show_rows("growth", text.GROWTH, facts["growth"]["events"], limit)
     if graph is not None and target is not None:
-        write_whole(target, _window(agent, graph) if of == "window" else _map(agent, graph))
+        write_whole(target, _drawn(agent, graph, window=of == "window"))
     if json is not None:
         write_json(json, facts)
     say_saved(graph=target, facts=json)
 
 
-def _graph_file(map_file: Path, graph: str | None, of: str, out: Path | None, *, growth_since: bool) -> Path | None:
+def _graph_file(map_file: Path, graph: str | None, of: str, out: Path | None) -> Path | None:
     """Where the graph goes, if one is asked for."""
     from ...model import CogmapError
-    from ..output import unused
+    from .. import unused
 
-    if not growth_since:
-        raise CogmapError("inspect: --since is for --growth; add it")
     if of not in OF:
         raise CogmapError(f"inspect: there is no graph of {of!r}; choose one of {', '.join(OF)}")
-    if graph is None:
-        if out is not None:
-            raise CogmapError("inspect: --out is where a graph goes; add --graph dot, json, png or svg")
-        return None
-    if graph not in GRAPHS:
+    if graph is None and out is not None:
+        raise CogmapError("inspect: --out is where a graph goes; add --graph dot, json, png or svg")
+    if graph not in (None, *GRAPHS):
         raise CogmapError(f"inspect: no graph format {graph!r}; choose one of {', '.join(GRAPHS)}")
-    return unused(map_file.with_suffix(f".{graph}")) if out is None else out
+    return out if graph is None or out is not None else unused(map_file.with_suffix(f".{graph}"))
 
 
-def _window(agent: Agent, graph: str) -> bytes:
+def _drawn(agent: Agent, graph: str, *, window: bool) -> bytes:
     from ...model import MOST_DRAWN, CogmapError, graph_svg
-    from ...views import plot_factor_graph
-    from ..output import picture_of
+    from ...views import plot_factor_graph, plot_map
+    from .. import picture_of
 
-    window = agent.graph
-    if graph == "png":
-        return picture_of(plot_factor_graph(window).figure, graph)
-    if graph == "svg":
-        drawn = graph_svg(window)
-        if drawn is None:
-            raise CogmapError(
-                f"inspect: the window is empty, or has more than {MOST_DRAWN} nodes to draw; use --graph dot"
-            )
-        return drawn.encode()
-    text = window.to_dot() if graph == "dot" else window.to_json(indent=1)
-    return text.encode(errors="replace")
-
-
-def _map(agent: Agent, graph: str) -> bytes:
-    from ...views import plot_map
-    from ..output import picture_of
-
-    if graph in ("png", "svg"):
+    what = agent.graph if window else agent.map
+    if graph in ("dot", "json"):
+        return (what.to_dot() if graph == "dot" else what.to_json(indent=1)).encode(errors="replace")
+    if not window:
         return picture_of(plot_map(agent.map).figure, graph)
-    text = agent.map.to_dot() if graph == "dot" else agent.map.to_json(indent=1)
-    return text.encode(errors="replace")
+    if graph == "png":
+        return picture_of(plot_factor_graph(agent.graph).figure, graph)
+    drawn = graph_svg(agent.graph)
+    if drawn is None:
+        few = f"the window is empty, or has more than {MOST_DRAWN} nodes to draw"
+        raise CogmapError(f"inspect: {few}; use --graph dot")
+    return drawn.encode()

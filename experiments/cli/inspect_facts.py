@@ -74,34 +74,19 @@ def place_rows(agent: Agent) -> list[Facts]:
     belief = agent.belief.places if agent.steps else {}
     rows: list[Facts] = []
     for place, facts in map_graph(agent.map).nodes(data=True):
-        best = next(iter(facts["sights"].items()), None) if facts["visited"] else None
-        sight, probability = (None, None) if best is None else best
-        rows.append(
-            {
-                "place": place,
-                "position": facts["position"],
-                "visited": facts["visited"],
-                "sight": _json(sight),
-                "sight_probability": probability,
-                "belief": belief.get(place, 0.0),
-            }
-        )
+        sight, probability = next(iter(facts["sights"].items()), (None, None)) if facts["visited"] else (None, None)
+        known = {"place": place, "position": facts["position"], "visited": facts["visited"], "sight": _json(sight)}
+        rows.append({**known, "sight_probability": probability, "belief": belief.get(place, 0.0)})
     return rows
 
 
 def transition_rows(map_: CognitiveMap) -> list[Facts]:
     """A row a transition within the map, besides staying, of probability `LEAST` or more."""
+    names = ("place", "action", "next", "probability", "count", "known")
     return [
-        {
-            "place": place,
-            "action": map_.motions.names[action],
-            "next": next_,
-            "probability": probability,
-            "count": count,
-            "known": how_known(map_, place, action),
-        }
-        for place, action, next_, probability, count in transitions(map_)
-        if action != map_.motions.stay and probability >= LEAST
+        dict(zip(names, (place, map_.motions.names[action], *rest, how_known(map_, place, action)), strict=True))
+        for place, action, *rest in transitions(map_)
+        if action != map_.motions.stay and rest[1] >= LEAST
     ]
 
 

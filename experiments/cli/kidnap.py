@@ -6,7 +6,9 @@ from typing import Any
 
 import typer
 
+from ..text import count, number, place_text, say, say_saved, seeds_of, spread
 from .options import Dask, Jobs, Json, LookAhead, MaxStepsTwice, Policies, Runs, Seed, World
+from .progress import counting
 
 
 def kidnap_command(
@@ -25,23 +27,17 @@ def kidnap_command(
     Exit code 0, or 1 where the one run (without --runs) did not recover.
     """
     from ...worlds import load_world
-    from ..executors import workers
-    from ..kidnapping import check_kidnap, kidnap_many, kidnap_result
-    from ..output import check_outputs, write_json
-    from ..parts import Parts
-    from .progress import counting
-    from .tables import say, say_saved
+    from .. import Parts, check_kidnap, check_outputs, kidnap_many, kidnap_result, workers, write_json
 
-    maze = load_world(world).maze
-    parts = Parts.named(growth="predicted", policies=policies, look_ahead=look_ahead)
-    check_kidnap(maze)
+    place = load_world(world)
+    options: Any = {"agent": Parts.named(policies=policies, look_ahead=look_ahead), "max_steps": max_steps}
+    check_kidnap(place)
     check_outputs([json], inputs=[world])
-    with workers(jobs=jobs, dask=dask) as executor, counting(f"kidnapping in {maze.name}", runs or 1) as one_more:
-        done = kidnap_many(
-            maze, runs=runs or 1, seed=seed, agent=parts, max_steps=max_steps, executor=executor, on_done=one_more
-        )
-    result = kidnap_result(maze, done, agent=parts, max_steps=max_steps)
-    say(*(_one(result["runs"][0], result["summary"]) if runs is None else _many(result)), title=maze.name)
+    name, many = place.chart.name, runs or 1
+    with workers(jobs=jobs, dask=dask) as executor, counting(f"kidnapping in {name}", many) as one_more:
+        done = kidnap_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)
+    result = kidnap_result(place, done, **options)
+    say(*(_one(result) if runs is None else _many(result)), title=name)
     if json is not None:
         write_json(json, result)
     say_saved(runs=json)
@@ -49,37 +45,31 @@ def kidnap_command(
         raise typer.Exit(1)
 
 
-def _one(run: dict[str, Any], summary: dict[str, Any]) -> list[str]:
-    from ..statistics import count
-
+def _one(result: dict[str, Any]) -> list[str]:
+    run, most = result["runs"][0], count(result["summary"]["max_steps"], "step")
     if run["moved_to"] is None:
-        return [f"Not explored after {count(summary['max_steps'], 'step')}; allow more with --max-steps."]
+        return [f"Not explored after {most}; allow more with --max-steps."]
     steps = run["steps_to_recover"]
-    found = count(summary["max_steps"] if steps is None else steps, "step")
+    found = f"not recovered after {most}" if steps is None else f"recovered after {count(steps, 'step')}"
+    explored = f"explored from {place_text(run['start'])} in {count(run['steps_to_explore'], 'step')}"
     return [
-        f"explored from {tuple(run['start'])} in {count(run['steps_to_explore'], 'step')}, then moved to "
-        f"{tuple(run['moved_to'])} without a word",
-        f"{'not ' if steps is None else ''}recovered after {found}; certain but wrong at "
-        f"{run['steps_certain_but_wrong']}",
+        f"{explored}, then moved to {place_text(run['moved_to'])} without a word",
+        f"{found}; certain but wrong at {run['steps_certain_but_wrong']}",
         f"map intact: {'yes' if run['map_intact'] else 'no'}",
     ]
 
 
 def _many(result: dict[str, Any]) -> list[str]:
-    from ..statistics import number, spread
-    from .tables import seeds_of
-
-    summary, runs = result["summary"], result["runs"]
-    total = summary["runs"]
+    summary = result["summary"]
+    total, most = summary["runs"], number(summary["most_steps_to_recover"], digits=0)
+    parts = (f"{name.replace('_', ' ')} {summary[name]}/{total}" for name in ("explored", "recovered", "map_intact"))
     lines = [
-        f"explored {summary['explored']}/{total}, recovered {summary['recovered']}/{total}, "
-        f"map intact {summary['map_intact']}/{total}",
-        f"steps to recover: {spread(summary, 'steps_to_recover')} (mean ± standard deviation), "
-        f"most {number(summary['most_steps_to_recover'], digits=0)}",
+        ", ".join(parts),
+        f"steps to recover: {spread(summary, 'steps_to_recover')} (mean ± standard deviation), most {most}",
         f"steps certain but wrong: {number(summary['mean_steps_certain_but_wrong'])} (mean)",
     ]
-    if lost := seeds_of(runs, lambda run: not run["recovered"]):
+    if lost := seeds_of(result, lambda run: not run["recovered"]):
         lines.append(f"not recovered with seeds {lost}")
-    if harmed := seeds_of(runs, lambda run: run["map_intact"] is False):
+    if harmed := seeds_of(result, lambda run: run["map_intact"] is False):
         lines.append(f"map not intact with seeds {harmed}")
     return lines

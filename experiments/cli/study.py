@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..text import say
 from .options import Dask, Jobs, Seed
+from .progress import counting
 
 if TYPE_CHECKING:
     from ..ledger import Ledger
@@ -76,7 +78,6 @@ def study_command(
 def _one(study: Study, folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
     from ..executors import workers
     from ..studies.everything import run_study
-    from .progress import counting
 
     with workers(jobs=jobs, dask=dask) as executor, _kept(study, folder, asked) as ledger:
         outcome = run_study(study, folder, asked, counter=counting, executor=executor, ledger=ledger)
@@ -87,8 +88,6 @@ def _all(folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
     from ..executors import workers
     from ..studies.everything import try_study, write_index
     from ..studies.frame import STUDIES
-    from .progress import counting
-    from .tables import say
 
     outcomes: list[Outcome] = []
     keeper = next((study for study in STUDIES.values() if study.keeps_cells), None)
@@ -103,7 +102,6 @@ def _all(folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
 
 
 def _show(outcome: Outcome) -> None:
-    from .tables import say
 
     if outcome.failure is None:
         say(*outcome.lines, *(f"written: {path}" for path in outcome.written), title=outcome.study.name)

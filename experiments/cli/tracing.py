@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
 from pathlib import Path
+from typing import Any
 
 from ...agent import Agent
 from ...model import CogmapError
@@ -13,11 +13,7 @@ from ..running import Moment
 
 
 def check_trace(agent: str, path: Path | None) -> None:
-    """Refuse to record an agent that believes nothing.
-
-    Raises:
-        CogmapError: `path` is given, and the agent is not `cogmap`.
-    """
+    """Refuse to record an agent that believes nothing."""
     if path is not None and agent != "cogmap":
         raise CogmapError(f"agent {agent} leaves no trace of beliefs; leave --trace out, or use --agent cogmap")
 
@@ -25,14 +21,13 @@ def check_trace(agent: str, path: Path | None) -> None:
 class Tracing:
     """Looks on and records, if there is a file for it."""
 
-    def __init__(self, path: Path | None, chart: Chart, *, title: str, goals: Iterable[Hashable] = ()) -> None:
-        self._path = path
-        self._recorder = Recorder(chart, title=title, goals=goals)
+    def __init__(self, path: Path | None, chart: Chart, *, title: str, goals: tuple[Any, ...] = ()) -> None:
+        self._path, self._recorder = path, Recorder(chart, title=title, goals=goals)
 
     def __call__(self, moment: Moment) -> None:
         """Record a choice."""
-        world = moment.world.unwrapped
         if self._path is not None and isinstance(moment.agent, Agent):
+            world = moment.world.unwrapped
             closed = {name: getattr(world, name, ()) for name in ("closed_rooms", "closed_doors")}
             self._recorder.add(moment.agent, place=place_of(moment.info), **closed)
 

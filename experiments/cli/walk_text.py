@@ -17,23 +17,22 @@ from ...agent import Agent
 from ...views import hexed, ink_on, sight_colour
 from ...worlds import Chart, Maze, Place
 from ..exploring import Walk
-from ..knowledge import BELIEVED, Truth
-from ..statistics import count
+from ..knowledge import BELIEVED
+from ..text import count, show_facts
 from .inspect_facts import ways_known
-from .tables import show_facts
 
 MOST_MOVES = 400  # of a path written out
 _ARROWS = {"up": "↑", "down": "↓", "left": "←", "right": "→", "stay": "·"}
 _BLOCKS, _ASCII = "▁▂▃▄▅▆▇█", "_.-=*#"
 
 
-def show_walk(maze: Maze, walk: Walk, *, agent: str) -> None:
+def show_walk(chart: Chart, walk: Walk, *, agent: str) -> None:
     """The maze, the path, the map learned, and F and G over time."""
-    to, run = Console(), walk.run
-    rooms = count(len(maze.rooms), "room")
-    to.print(f"[bold]{escape(maze.name)}[/bold]: {rooms}, agent {agent}, seed {run.seed}", highlight=False)
-    to.print(_maze(maze, walk.path, to.width))
-    to.print(_path(maze, walk.path, unicode=_unicode(to)), soft_wrap=False)
+    to, run, rooms = Console(), walk.run, count(len(chart.places), "room")
+    to.print(f"[bold]{escape(chart.name)}[/bold]: {rooms}, agent {agent}, seed {run.seed}", highlight=False)
+    if isinstance(chart, Maze):
+        to.print(_maze(chart, walk.path, to.width))
+    to.print(_path(chart, walk.path, unicode=_unicode(to)), soft_wrap=False)
     steps = {
         "every room visited after": run.steps_to_visit_all,
         "every transition learned after": run.steps_to_learn,
@@ -42,12 +41,10 @@ def show_walk(maze: Maze, walk: Walk, *, agent: str) -> None:
     }
     if run.frontier_steps is not None:
         steps["nearest-frontier search"] = run.frontier_steps
-    facts: dict[str, str | Text] = {
-        name: "-" if value is None else count(value, "step") for name, value in steps.items()
-    }
+    facts: dict[str, Any] = {name: "-" if value is None else count(value, "step") for name, value in steps.items()}
     facts["time"] = f"{run.seconds:.2f} s"
     if isinstance(walk.walker, Agent):
-        facts |= _learned(maze, walk, walk.walker) | _energies(walk.walker, to)
+        facts |= _learned(walk, walk.walker) | _energies(walk.walker, to)
     show_facts(facts)
 
 
@@ -101,20 +98,16 @@ def _move(chart: Chart, a: Place, b: Place) -> str:
     return "stay" if a == b else next(str(way) for way, place in chart.successors(a).items() if place == b)
 
 
-def _learned(maze: Maze, walk: Walk, agent: Agent) -> dict[str, str]:
-    map_ = agent.map
+def _learned(walk: Walk, agent: Agent) -> dict[str, str]:
+    map_, ways = agent.map, ways_known(agent.map)
     places = f"{count(len(map_.places), 'place')} ({int(map_.visited.sum())} visited)"
-    ways = ways_known(map_)
-    ways = {
-        "walked": ways["walked"],
-        "imagined": ways["imagined"],
-        "blocked": ways["refuted"],
-        "unknown": ways["unknown"],
-    }
+    known = (
+        f"{ways['walked']} walked, {ways['imagined']} imagined, {ways['refuted']} blocked, {ways['unknown']} unknown"
+    )
     return {
         "map": f"{places}, {count(len(map_.sights), 'sight')}",
-        "transitions": ", ".join(f"{number} {name}" for name, number in ways.items()),
-        "least believed transition": f"{Truth(maze, walk.run.start).least(map_):.3f} (learned from {BELIEVED})",
+        "transitions": known,
+        "least believed transition": f"{walk.truth.least(map_):.3f} (learned from {BELIEVED})",
     }
 
 

@@ -13,8 +13,8 @@ import numpy as np
 from ...agent import Agent, Settings
 from ...worlds import Maze, Position, shortest_path
 from ..pool import map_seeds
+from ..records import mean
 from ..session import Session, explored
-from ..statistics import mean
 from .donut_rows import CLOSED, CORNER, DOORS, GOAL, GOAL_ROOM, MAZE, DonutRow, DonutStep
 from .imagined import imagined_paths
 
@@ -75,7 +75,7 @@ def donut_study(
 
 def donut_lines(result: DonutResult) -> list[str]:
     """What the terminal shows."""
-    from ..statistics import number
+    from ..text import number
 
     summary = result.summary()
     total = summary["agents"]

@@ -14,8 +14,8 @@ from ...agent import Agent, Settings
 from ...worlds import MAZES, Label, MazeEnv, Position, shortest_path
 from ..knowledge import Truth
 from ..pool import map_seeds
+from ..records import mean, std
 from ..session import Session, explored
-from ..statistics import mean, std
 from .imagined import imagined_paths, room_of
 from .intervals import Interval, bootstrap
 from .localisation_rows import CANDIDATE, CONDITIONS, Condition, LocalisationRow, LocalisationStep, LocalisationTrial
@@ -88,7 +88,7 @@ def localisation_study(
 
 def localisation_lines(result: LocalisationResult) -> list[str]:
     """What the terminal shows."""
-    from ..statistics import number, spread
+    from ..text import number, spread
 
     summary = result.summary()
     lines = [
