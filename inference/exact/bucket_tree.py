@@ -130,8 +130,8 @@ def tree_of(done: Pass, memory: float, *, root: bool = False) -> BucketTree:
 def draw(weights: FloatArray, rng: np.random.Generator) -> IntArray:
     """`[n]` outcomes, each drawn from a column of `weights [outcomes, n]`, which need not be normalised."""
     up_to = np.cumsum(weights, axis=0)
-    # at most the last outcome that has weight, whatever rounding does
-    return (up_to < rng.random(weights.shape[1]) * up_to[-1] * (1.0 - 1e-15)).sum(axis=0)
+    # the first whose sum is above: it has weight itself, and rounding never leads beyond the last
+    return (up_to <= rng.random(weights.shape[1]) * up_to[-1] * (1.0 - 1e-15)).sum(axis=0)
 
 
 def entropy(belief: FloatArray) -> float:
