@@ -132,7 +132,7 @@ def causes(agent: Agent) -> list[float]:
     model, map_, belief = agent.plan.model, agent.map, agent.belief
     visits = visits_of(model, prefixes_of(agent.plan.policies))
     visited = len(map_.visited_places)
-    showing = len(map_.visited_with(map_.sights.index(agent.trace[-1].sight))[0])
+    showing = len(map_.sights_sensed[0].candidates(map_.sights.index(agent.trace[-1].sight))[0])
     candidates = (showing if 2 * showing + FEW < visited else visited) if belief.examined else 0
     levels, places = agent.plan.policies.shape[1], len(model.places)
     return [1.0, levels, 1e-3 * places, 1e-3 * visits, float(belief.examined), 1e-3 * candidates]

@@ -154,7 +154,7 @@ def _plan_everywhere(agent: Agent) -> None:
     places, cache = np.arange(len(agent.map.places)), LocalCache(agent.map, agent.settings.look_ahead)
     for part in np.array_split(places, max(1, len(places) // 1000)):
         cache.rows(part)
-    agent.map.visited_with(0)
+    agent.map.sensors["sight"].candidates(0)
     agent._cache = cache
 
 

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
+from numpy.typing import NDArray
+
 from .errors import CogmapError
 from .growth_event import GrowthEvent
 
@@ -27,6 +29,10 @@ class Store(Protocol):
 
     def put(self, where: Any, value: Any) -> None:
         """Write `value`, as `Change` has it, without telling the log."""
+        ...
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """Copies of the arrays that hold it, for saving."""
         ...
 
     def value(self, numbers: Sequence[float]) -> Any:

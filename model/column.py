@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import inf
 from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from .changes import Change, Changes
+from .errors import CogmapError
 
 
 class Column:
@@ -80,8 +82,19 @@ class Column:
         """The row, where rows are places."""
         return (where[0] if isinstance(where, tuple) else where,)
 
-    def restore(self, values: NDArray[Any]) -> None:
-        """Take over `values`."""
-        self.resize(0)
-        self.resize(len(values))
-        self._array[: len(values)] = values
+    def state(self) -> dict[str, NDArray[Any]]:
+        """A copy of the rows in use, for saving."""
+        return {"values": self.values.copy()}
+
+    def restore(self, values: NDArray[Any], *, least: float = -inf, bound: float = inf) -> None:
+        """Take over the values of as many rows as it has, each in [least, bound).
+
+        Raises:
+            CogmapError: they are others.
+        """
+        fits = values.shape == self.values.shape and values.dtype.kind in "ib"
+        if not (fits and bool(((values >= least) & (values < bound)).all())):
+            raise CogmapError(
+                f"map: {self.name} does not fit {len(self)} rows of {least:g} to {bound:g}; save it again"
+            )
+        self.values[:] = values

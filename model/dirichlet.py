@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from math import inf
 from operator import add
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -264,17 +265,35 @@ class SparseDirichlet:
         table[-1] = np.maximum(1.0 - table[:-1].sum(axis=0), 0.0)
         return table
 
-    def state(self) -> dict[str, NDArray[np.generic]]:
+    def state(self) -> dict[str, NDArray[Any]]:
         """Copies of the arrays that hold every count, for saving."""
         rows = slice(self._rows)
         parts = {"keys": self._keys, "prior": self._prior, "evidence": self._evidence}
         return {name: part[rows].copy() for name, part in parts.items()}
 
-    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Take over what `state` returned."""
-        self._keys = state["keys"].astype(np.int64)
-        self._prior = state["prior"].astype(np.float64)
-        self._evidence = state["evidence"].astype(np.float64)
-        self._rows = self._keys.shape[0]
+    def restore(self, state: Mapping[str, NDArray[Any]], *, outcomes: float = inf) -> None:
+        """Take over what `state` returned of a table of as many rows, over so many outcomes at most.
+
+        Raises:
+            CogmapError: it is of another table, or holds what is no count.
+        """
+        keys, prior, evidence = (state[part] for part in ("keys", "prior", "evidence"))
+        fits = keys.ndim == 2 and len(keys) == self._rows and keys.shape == prior.shape == evidence.shape
+        fits = fits and all(_within(counts, 0, inf) for counts in (prior, evidence))
+        if not (fits and keys.dtype.kind == "i" and _within(keys, EMPTY, outcomes)):
+            where = f"{self._rows} rows of {outcomes:g} outcomes"
+            raise CogmapError(f"map: the counts of {self.name} do not fit {where}; save it again")
+        self._keys = keys.astype(np.int64)
+        self._prior, self._evidence = prior.astype(np.float64), evidence.astype(np.float64)
         self._alpha, self._total = np.zeros_like(self._prior), np.zeros(self._rows)
         self._add_up()
+
+
+def _within(numbers: NDArray[Any], least: float, bound: float) -> bool:
+    """Whether all numbers are in [least, bound); a NaN is not."""
+    return numbers.dtype.kind in "ibf" and bool(((numbers >= least) & (numbers < bound)).all())
+
+
+def parts_of(name: str, arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """The state of the table of that name among the arrays of a file."""
+    return {part: arrays[f"{name}.{part}"] for part in ("keys", "prior", "evidence")}

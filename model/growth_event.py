@@ -25,6 +25,7 @@ class GrowthEvent:
         label: the sight or the position as the agent knows it; for a place, its position or None.
         source: the place from which it was seen or entered, or None.
         action: index of the action that leads there from `source`, or None.
+        sensor: for a `sight`, the name of the sensor whose label it is.
     """
 
     step: int
@@ -33,3 +34,4 @@ class GrowthEvent:
     label: Hashable = None
     source: int | None = None
     action: int | None = None
+    sensor: str | None = None

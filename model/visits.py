@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from .changes import Change, Changes
 from .column import Column
-
-Ints = NDArray[np.int64]
+from .errors import CogmapError
 
 
 class Visits:
@@ -58,9 +57,20 @@ class Visits:
         """The place itself."""
         return (where,)
 
-    def restore(self, order: Ints, places: int) -> None:
-        """Take over the visited ones of so many places."""
-        self.resize(places)
+    def state(self) -> dict[str, NDArray[np.int64]]:
+        """The places in the order of their first visit, for saving."""
+        return {"order": self.order.values.copy()}
+
+    def restore(self, order: NDArray[np.int64]) -> None:
+        """Take over the visited ones among the places that there are.
+
+        Raises:
+            CogmapError: one is none, or stands twice.
+        """
+        fits = order.ndim == 1 and order.dtype.kind == "i" and len(np.unique(order)) == len(order)
+        if not (fits and bool(((order >= 0) & (order < len(self.visited))).all())):
+            raise CogmapError(f"map: visits does not fit {len(self.visited)} places; save it again")
+        self.order.resize(len(order))
         self.order.restore(order)
         self.first.values[order] = np.arange(len(order))
         self.visited.values[order] = True

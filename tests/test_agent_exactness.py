@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.inference.message import FilterOptions
+from cogmap.inference import FilterOptions
 from cogmap.planning import TERMS, Policies, evaluate_plain, local_model
 from cogmap.worlds import MazeEnv, labyrinth, load_world
 from walks import walk

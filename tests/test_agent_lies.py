@@ -92,16 +92,15 @@ def lied_to(lie: Lie, name: str, seed: int, *, steps: int) -> Recovery:
     for step in range(steps):
         world.step(agent.step(lie(session, step, rng)))
         assert_agent_is_sound(agent)
-    astray, whole = [], []
+    astray, whole, taken = [], [], dict[str, int]()
     for tour in range(1 + TOURS):
         path = _tour(world) if tour else [None] * ALONE
         for led in path:
-            action = agent.step(world.observe())
+            action = agent.step({**world.observe(), **taken})
             astray.append(not agent.certain or agent.belief.place != session.true_place)
             whole.append(truth.learned(agent.map) and sights_are_right(session))
-            if led is not None:
-                agent._action = action = led
-            world.step(action)
+            taken = {} if led is None else {"taken": led}
+            world.step(action if led is None else led)
     assert_agent_is_sound(agent)
     return Recovery(
         certain=astray.index(False) if False in astray else None,

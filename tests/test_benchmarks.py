@@ -134,8 +134,7 @@ def test_a_known_agent_is_like_one_that_walked(seed: int, monkeypatch: pytest.Mo
     for (_, room), (action, _) in zip(walk, [*walk[1:], (4, start)], strict=True):
         assert world.position == room
         walked.step(observation)
-        walked._action = action
-        observation, *_ = world.step(action)
+        observation = {**world.step(action)[0], "taken": action}
     for agent in (taught, walked):
         assert truth.visited(agent.map)
         assert truth.learned(agent.map)

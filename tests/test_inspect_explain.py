@@ -148,9 +148,10 @@ def test_a_loaded_agent_explains_its_last_choice_alike(options: dict[str, Any], 
 
 def test_files_without_the_choice_say_so() -> None:
     header, arrays = walked(load_world("3x3"), 3).state()
-    old = {name: value for name, value in header.items() if name != "choice"}
+    old = {**header, "state": {**header["state"], "choice": None}}
     with pytest.raises(CogmapError, match="an earlier version wrote it"):
         explain(Agent.from_state(old, arrays))
-    strange = {**header, "choice": {**header["choice"], "policy": [0] * 99}}
+    choice = {**header["state"]["choice"], "policy": {"tuple": [0] * 99}}
+    strange = {**header, "state": {**header["state"], "choice": choice}}
     with pytest.raises(CogmapError, match="does not come out the same"):
         explain(Agent.from_state(strange, arrays))

@@ -18,7 +18,7 @@ from walks import DOWN, GRID, walk, walked
 def by_hand() -> CognitiveMap:
     map_ = CognitiveMap(Motions.of(GRID))
     map_.new_place((0, 0), step=0)  # place 0
-    map_.new_sight("hall", step=0)
+    map_.sensors["sight"].read("hall", step=0)
     map_.new_place((1, 0), step=1, source=0, action=DOWN)  # place 1
     mark = map_.changes.mark()
     map_.new_place((2, 0), step=1, source=1, action=DOWN)  # place 2, taken away at step 3

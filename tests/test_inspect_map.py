@@ -55,7 +55,7 @@ def test_places_without_a_position_and_labels_that_json_cannot_hold() -> None:
     map_.new_place(None, step=0)
     assert json.loads(map_.to_json())["nodes"][0]["position"] is None
     assert "pos=" not in map_.to_dot()
-    map_.new_sight(frozenset(), step=0)
+    map_.sensors["sight"].read(frozenset(), step=0)
     map_.A_o.add(0, 0, 1.0)
     with pytest.raises(CogmapError, match="map: cannot write label frozenset"):
         map_.to_json()
@@ -74,7 +74,7 @@ def test_a_thousand_rooms_take_less_than_two_seconds() -> None:
     map_ = CognitiveMap(Motions.of(GRID))
     for k in range(1000):
         place = map_.new_place(divmod(k, 25), step=k)
-        map_.A_o.add(place, map_.new_sight(k % 7, step=k), 1.0)
+        map_.A_o.add(place, map_.sensors["sight"].read(k % 7, step=k), 1.0)
         map_.B_s.add(map_.row(place, UP), place, 7.0)
         map_.mark_visited(place)
     began = perf_counter()

@@ -6,9 +6,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from cogmap.model import Change, Changes, CogmapError, CognitiveMap, GrowthEvent, Learner, Motions, Rates
+from cogmap.model import Change, Changes, CogmapError, CognitiveMap, GrowthEvent, Motions, map_state
 from cogmap.model.changes import KEPT, STEPS
-from cogmap.model.map_state import map_arrays
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import GRID
@@ -18,7 +17,6 @@ writes = st.lists(st.tuples(st.integers(0, 7), st.integers(0, 9), st.integers(0,
 
 def write(map_: CognitiveMap, ops: list[tuple[int, int, int, float]]) -> None:
     """Any of the ways in which a map changes."""
-    learner = Learner(map_, Rates())
     for op, at, action, weight in ops:
         place = at % len(map_.places)
         if op == 0:
@@ -30,14 +28,14 @@ def write(map_: CognitiveMap, ops: list[tuple[int, int, int, float]]) -> None:
         elif op == 2:
             map_.mark_visited(place)
         elif op == 3:
-            learner.sight(place, map_.new_sight(action, step=0), weight)
+            map_.sensors["sight"].learn(place, map_.sensors["sight"].read(action, step=0), weight)
         elif op == 4:
-            learner.doors(place, [bool(at >> i & 1) for i in range(4)] + [True], min(weight, 1.0))
+            map_.sensors["open"].learn(place, [bool(at >> i & 1) for i in range(4)] + [True], min(weight, 1.0))
         elif op == 5:
             beyond = map_.beyond(place, action)
-            learner.transition(place, action, place if beyond is None else beyond, min(weight, 1.0))
+            map_.transitions.learn(place, action, place if beyond is None else beyond, min(weight, 1.0))
         elif op == 6:
-            learner.forget(0.5)
+            map_.transitions.forget(0.5)
         elif map_.position(place) is None and map_.place_at((9, place)) is None:
             map_.bind(place, (9, place), step=0)
 
@@ -46,15 +44,15 @@ def begun() -> CognitiveMap:
     map_ = CognitiveMap(Motions.of(GRID))
     map_.new_place((0, 0), step=0)
     for position in [(x, y) for x in range(10) for y in range(10)]:  # what is met stays met: so that all is the same
-        map_.new_position(position, step=0)
+        map_.pose.new_position(position, step=0)
     for sight in range(5):
-        map_.new_sight(sight, step=0)
+        map_.sensors["sight"].read(sight, step=0)
     return map_
 
 
 def stored(map_: CognitiveMap) -> dict[str, np.ndarray]:
     """Everything that is undone, without the slots that nothing uses."""
-    arrays = {name: array for name, array in map_arrays(map_).items() if not name.startswith(("changes", "growth"))}
+    arrays = {name: array for name, array in map_state(map_)[1].items() if not name.startswith(("changes", "growth"))}
     for table in ("A_o", "A_p", "B_s"):
         used = (arrays[f"{table}.keys"] != -2).any(axis=0)
         for part in ("keys", "prior", "evidence"):
@@ -190,7 +188,7 @@ CHANGES: dict[str, tuple[Callable[[CognitiveMap], object], set[int] | None, set[
     "a count": (lambda map_: map_.A_o.add(3, 1, 1.0), {3}, set()),
     "a transition": (lambda map_: map_.B_s.add(map_.row(2, 1), 2, 1.0), {2}, {2}),
     "a visit": (lambda map_: map_.mark_visited(4), {4}, {4}),
-    "a door": (lambda map_: map_.note_door(1, 0, 2), {1}, set()),
+    "a door": (lambda map_: map_.transitions.sensed.set((1, 0), 2), {1}, set()),
     "fading": (lambda map_: map_.B_s.fade(0.5), None, None),
     "a place": (lambda map_: map_.new_place(None, step=0), {6}, {6}),
 }

@@ -91,6 +91,7 @@ class AgainstBruteForce(RuleBasedStateMachine):
     @rule()
     def save_and_restore(self) -> None:
         restored = SparseDirichlet(slots=self.slots, background=self.background, outcomes=self.size)
+        restored.resize(len(self.table))
         restored.restore(self.table.state())
         self.table = restored
 
@@ -187,6 +188,7 @@ def test_state_is_a_copy() -> None:
     table.add(0, 0, 1.0)
     assert state["evidence"][0, 0] == 1.0
     other = SparseDirichlet(slots=1)
+    other.resize(len(table))
     other.restore(state)
     other.add(0, 0, 5.0)
     assert state["evidence"][0, 0] == 1.0

@@ -29,7 +29,7 @@ OPEN = (True, True, True)
 def corridor(rooms: int, *, unvisited: int | None = None) -> CognitiveMap:
     """Known rooms in a row, number and position alike; `unvisited` was never entered."""
     map_ = CognitiveMap(LINE)
-    sight = map_.new_sight("grey", step=0)
+    sight = map_.sensors["sight"].read("grey", step=0)
     for room in range(rooms):
         map_.new_place((room,), step=0)
     for room in range(rooms):

@@ -189,7 +189,7 @@ def explain(agent: Agent, *, most: int = 5) -> Explanation:
     """
     if most < 1:
         raise CogmapError(f"explain: most is {most}; give 1 or more policies to tell of")
-    plan, belief, settings, wishes = agent.plan, agent.belief, agent.settings, agent.wishes
+    plan, belief, settings, wishes = agent.plan, agent.belief, agent.settings, agent.preferences
     G = plan.expected_free_energy.G
     ranked = [int(policy) for policy in np.argsort(G, kind="stable")[:most]]
     equals = set(plan.choice.contenders(plan.model, plan.policies, G).tolist())

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from cogmap.agent import Agent, Settings
-from cogmap.inference.message import FilterOptions
+from cogmap.inference import FilterOptions
 from cogmap.model import TABLE_RATES, TEXT_RATES, Priors
 from numpy.typing import NDArray
 
