@@ -73,7 +73,13 @@ class Row(Record):
 
 
 class Options(TypedDict, total=False):
-    """What rows are made with: settings of `cogmap` but for its growth, of the clone-structured graphs, most moves."""
+    """What rows are made with.
+
+    Attributes:
+        settings: of the agent `cogmap`, but for its growth.
+        cscg: settings of the clone-structured graphs.
+        max_steps: moves after which a run gives up; by the size of its maze unless given.
+    """
 
     settings: Settings | None
     cscg: CscgSettings | None

@@ -8,15 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.special import xlogy
 
 from ...model import CogmapError, Factor, FloatArray, IntArray
 from ..errors import impossible
-from ..exact import Problem, Solution, in_logs
+from ..exact import Problem, in_logs
 
 ZERO = -1e8
 """Stands for log 0."""
@@ -86,7 +85,7 @@ class LoopyReport:
 
 
 @dataclass(frozen=True, slots=True)
-class LoopySolution(Solution):
+class LoopySolution:
     """Beliefs of nodes and tables.
 
     Attributes:
@@ -104,7 +103,7 @@ class LoopySolution(Solution):
     scopes: Sequence[tuple[int, ...]]
     tables: Sequence[FloatArray]
     log_evidence: float
-    instead: ClassVar[str] = "use an exact engine, or engine='sampling'"
+    _no: str = field(default="; use an exact engine, or engine='sampling'", repr=False)
 
     def joint(self, names: Sequence[str]) -> FloatArray:
         """The belief of variables that have a factor in common."""
@@ -116,9 +115,7 @@ class LoopySolution(Solution):
                 summed = belief.sum(axis=tuple(axis for axis, i in enumerate(scope) if i not in wanted))
                 left = [i for i in scope if i in wanted]
                 return self.problem.expand(names, {wanted: summed.transpose([left.index(i) for i in wanted])})
-        raise CogmapError(
-            f"loopy: no factor holds all of {', '.join(names)}, so there is no belief of them; {self.instead}"
-        )
+        raise CogmapError(f"loopy: no factor holds all of {', '.join(names)}, so there is no belief of them{self._no}")
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
         """Of a large sparse factor the entries that agree with the evidence, and the belief of each; else None."""
@@ -131,9 +128,17 @@ class LoopySolution(Solution):
             return rows, p
         return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
 
+    def entropy(self) -> float:
+        """Not known."""
+        raise CogmapError(f"loopy: the entropy of all variables is not known{self._no}")
+
+    def sample(self, count: int, rng: np.random.Generator) -> IntArray:
+        """Not known."""
+        raise CogmapError(f"loopy: it gives no samples{self._no}")
+
     def standard_error(self, names: Sequence[str]) -> FloatArray:
         """Not known."""
-        raise CogmapError(f"loopy: how far its marginals are off is not known; {self.instead}")
+        raise CogmapError(f"loopy: how far its marginals are off is not known{self._no}")
 
 
 class _Group:
