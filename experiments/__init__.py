@@ -8,13 +8,22 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .cells import Cell, Row, run_cell, run_cells
     from .executors import workers
-    from .exploring import ExploreRun, Walk, exploration, explore, explore_many, summarise, walk
+    from .exploring import (
+        ExploreRun,
+        Walk,
+        exploration,
+        explore,
+        explore_many,
+        frontier_steps,
+        oracle_steps,
+        summarise,
+        walk,
+    )
     from .goals import WEIGHT, check_goal, parse_goal
     from .kidnapping import KidnapRun, check_kidnap, kidnap, kidnap_many, kidnap_result
     from .knowledge import BELIEVED, Truth
     from .ledger import Ledger
     from .navigating import NavigateRun, navigate, navigate_many, navigate_result
-    from .oracle import frontier_steps, oracle_steps
     from .output import check_outputs, picture_of, unused, write_json, write_picture
     from .parts import AGENTS, CSCG, Maker, Parts
     from .pool import WorkerLostError, completed, map_seeds, map_tasks
@@ -84,7 +93,7 @@ __all__ = [
 ]
 
 _MODULES = (
-    "text pool executors running output ledger records parts knowledge oracle session goals exploring kidnapping "
+    "text pool executors running output ledger records parts knowledge session goals exploring kidnapping "
     "navigating cells"
 )
 

@@ -73,13 +73,7 @@ class Row(Record):
 
 
 class Options(TypedDict, total=False):
-    """What rows are made with.
-
-    Attributes:
-        settings: of the agent `cogmap`, but for its growth.
-        cscg: settings of the clone-structured graphs.
-        max_steps: moves after which a run gives up; by the size of its maze unless given.
-    """
+    """What rows are made with: settings of `cogmap` but for its growth, of the clone-structured graphs, most moves."""
 
     settings: Settings | None
     cscg: CscgSettings | None

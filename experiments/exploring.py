@@ -1,18 +1,23 @@
-"""Exploring a world from a random place: how many steps until all of it is known?"""
+"""Exploring a world from a random place: how many steps until all of it is known, and how few would do?"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from time import perf_counter
 from typing import Any, Unpack
 
-from ..worlds import Place
+import numpy as np
+
+from ..baselines import FrontierAgent
+from ..worlds import Chart, Maze, Place, covering_steps, frontier_walk, place_of, world_of
 from .knowledge import Truth
-from .oracle import frontier_steps, oracle_steps
 from .records import OPTIONAL, Record, mean, ratio, std
-from .running import Watch
+from .running import Moment, Watch, run
 from .session import Many, Options, World, chart_of, described, many, set_out
+
+EFFORT = 4_000_000  # of the oracle, search states times rooms squared: some seconds
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,12 +81,12 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
         WorldError: a world without a chart.
     """
     session, begin = set_out("explore", world, seed, **options), perf_counter()
-    run, known = session.explore(watch)
+    done, known = session.explore(watch)
     seconds = round(perf_counter() - begin, 4)
     oracle = oracle_steps(chart_of(world), session.start)
     instead = frontier_steps(chart_of(world), session.start) if oracle is None else None
     figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
-    return Walk(ExploreRun(seed, session.start, *figures), run.truth, session.agent, session.truth)
+    return Walk(ExploreRun(seed, session.start, *figures), done.truth, session.agent, session.truth)
 
 
 def explore(world: World, seed: int = 0, **options: Unpack[Options]) -> ExploreRun:
@@ -124,3 +129,31 @@ def exploration(world: World, runs: Sequence[ExploreRun], **options: Unpack[Opti
     chart, maker, most = described("explore", world, **options)
     head = {"world": chart.name, "agent": maker.agent, "settings": maker.to_dict(chart)}
     return {**head, "runs": [run.to_dict() for run in runs], "summary": summarise(runs, max_steps=most)}
+
+
+@lru_cache(maxsize=4096)
+def oracle_steps(chart: Chart, start: Place) -> int | None:
+    """Steps of the shortest walk from `start` that visits every place; None where it is out of reach."""
+    return covering_steps(chart, start, limit=max(1, EFFORT // len(chart.places) ** 2))
+
+
+@lru_cache(maxsize=4096)
+def frontier_steps(chart: Chart, start: Place) -> int | None:
+    """Steps in which nearest-frontier search visits every place, its draws settled by seed 0; None of a large graph."""
+    return frontier_search(chart, start, seed=0)
+
+
+def frontier_search(chart: Chart, start: Place, seed: Any, *, goal: Any = None) -> int | None:
+    """The same with any seed, until it first stands in a place with the sight `goal` if one is given."""
+    if not isinstance(chart, Maze):
+        walk = frontier_walk(chart, start, rng=np.random.default_rng(seed))
+        there = [step for step, place in enumerate(walk or ()) if goal in (None, chart.sights[place])]
+        return None if not there else there[-1] if goal is None else there[0]
+    left, most = set(chart.places), len(chart.places) ** 2 + 1  # a new room takes no more steps than there are rooms
+
+    def arrived(moment: Moment) -> bool:
+        left.discard(place_of(moment.info))
+        return not left if goal is None else moment.observation["sight"] == goal
+
+    world, agent = world_of(chart), FrontierAgent(chart.motions, seed=seed)
+    return run(world, agent, steps=most, options={"start": start}, watch=arrived).observations - 1

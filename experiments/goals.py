@@ -29,22 +29,20 @@ def check_goal(
     chart = chart_of(world)
     labels = sorted(set(chart.sights.values()), key=lambda label: (str(type(label)), label))
     if goal not in labels:
-        named = ", ".join(map(str, labels[:MOST_LABELS]))
         more = f" and {len(labels) - MOST_LABELS} more" if len(labels) > MOST_LABELS else ""
-        raise CogmapError(f"navigate: no room of maze {chart.name!r} has label {goal!r}; use one of {named}{more}")
+        named = f"no room of maze {chart.name!r} has label {goal!r}; use one of "
+        raise CogmapError(f"navigate: {named}{', '.join(map(str, labels[:MOST_LABELS]))}{more}")
     if not 0.0 < weight < inf:
         raise CogmapError(f"navigate: weight is {weight}; use a log preference above 0, in nats")
-    if not closed:
-        return
     if missing := [room for room in closed if room not in chart.sights]:
-        at = f"maze {chart.name!r} has no room at {missing[0]}"
-        raise CogmapError(f"close: {at}; `cogmap worlds {chart.name}` shows them")
-    if not known:
-        unknown = "rooms close after exploring, and this agent sets out unexplored"
-        raise CogmapError(f"close: {unknown}; leave one of them out")
-    if chart is not world:
+        where = f"maze {chart.name!r} has no room at {missing[0]}"
+        raise CogmapError(f"close: {where}; `cogmap worlds {chart.name}` shows them")
+    if closed and not known:
+        when = "rooms close after exploring, and this agent sets out unexplored"
+        raise CogmapError(f"close: {when}; leave one of them out")
+    if closed and chart is not world:
         offered(world, CanClose, "close")
-    for room in chart.places:
+    for room in chart.places if closed else ():
         if room not in closed:
             shortest(chart, room, goal, closed)
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..agent import Agent
 from ..baselines import CscgAgent
 from ..model import CognitiveMap
-from ..worlds import GRID, Chart, Motions, Place, place_of
+from ..worlds import Chart, Place, place_of
 from .running import Moment, Walker, Watch
 
 BELIEVED = 0.6
@@ -29,16 +29,15 @@ class Truth:
     Args:
         chart: the true map, such as a maze.
         start: the place that the agent takes as its origin.
-        motions: the actions.
 
     Attributes:
         number: of each place, in the order of the chart.
     """
 
-    def __init__(self, chart: Chart, start: Place, *, motions: Motions = GRID) -> None:
+    def __init__(self, chart: Chart, start: Place) -> None:
         self.number = {place: i for i, place in enumerate(chart.places)}
         ahead = [[self.number[other] for other in chart.successors(place).values()] for place in chart.places]
-        self._offset = _offsets(ahead, self.number[start], motions.displacements)
+        self._offset = _offsets(ahead, self.number[start], chart.motions.displacements)
         most = max(map(len, ahead))  # an action that a place has not leads back
         self._target = np.array([[*row, *[i] * (most - len(row))] for i, row in enumerate(ahead)])  # [R, K]
 

@@ -14,8 +14,8 @@ from ..model import CogmapError
 
 SCHEMA, VERSION = "cogmap.cells", 1
 _BEGINNING = f'{{"schema": "{SCHEMA}"'.encode()
-_UNSET = "nothing"
-Read = TypeVar("Read")
+_Row = dict[str, Any]
+_Read = TypeVar("_Read")
 
 
 class Ledger(AbstractContextManager["Ledger"]):
@@ -35,18 +35,17 @@ class Ledger(AbstractContextManager["Ledger"]):
         self.path = Path(path)
         self._file = _opened(self.path)
         try:
-            _lock(self._file, self.path)
             self._header, self._rows, self._end = _read(self._file, self.path)
         except BaseException:
             self.close()
             raise
 
     @property
-    def rows(self) -> list[dict[str, Any]]:
+    def rows(self) -> list[_Row]:
         """The rows in the file, the oldest first."""
         return list(self._rows)
 
-    def begin(self, read: Callable[[Mapping[str, Any]], Read], **made_with: Any) -> list[Read]:
+    def begin(self, read: Callable[[_Row], _Read], **made_with: Any) -> list[_Read]:
         """Go on with what is there, its torn last line cut off, or write the header of a new file.
 
         Args:
@@ -56,15 +55,18 @@ class Ledger(AbstractContextManager["Ledger"]):
         Raises:
             CogmapError: the rows there were made with something else, or `read` refuses one.
         """
-        here = json.loads(json.dumps(made_with))
-        if self._header is not None and (other := _difference(self._header, here)):
-            name, there, wanted = other[0], *map(json.dumps, other[1:])
-            made = f"{self.path} was made with {name} = {there}, this run has {wanted}"
-            raise CogmapError(f"{made}; give another file, or remove it")
+        here: _Row = {"schema": SCHEMA, "version": VERSION, **json.loads(json.dumps(made_with))}
+        if self._header is not None:
+            old, new = dict(_leaves(self._header)), dict(_leaves(here))
+            for name in {**new, **old}:
+                there, wanted = (json.dumps(leaves.get(name, "nothing")) for leaves in (old, new))
+                if there != wanted:
+                    made = f"{self.path} was made with {name} = {there}, this run has {wanted}"
+                    raise CogmapError(f"{made}; give another file, or remove it")
         os.ftruncate(self._file.fileno(), self._end)
         if self._header is None:
-            self._write({"schema": SCHEMA, "version": VERSION, **here})
             self._header = here
+            self._write(here)
         return [self._made(read, number, row) for number, row in enumerate(self._rows, start=2)]
 
     def append(self, row: Mapping[str, Any]) -> None:
@@ -85,7 +87,7 @@ class Ledger(AbstractContextManager["Ledger"]):
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    def _made(self, read: Callable[[Mapping[str, Any]], Read], number: int, row: Mapping[str, Any]) -> Read:
+    def _made(self, read: Callable[[_Row], _Read], number: int, row: _Row) -> _Read:
         try:
             return read(row)
         except CogmapError as error:
@@ -108,32 +110,31 @@ class Ledger(AbstractContextManager["Ledger"]):
 
 
 def _opened(path: Path) -> FileIO:
-    """The file, to be read and written behind what is there."""
+    """The file, to be read and written behind what is there; others are kept out where there are locks."""
     try:
         if path.exists() and not path.is_file():
             raise CogmapError(f"cannot write {path}: it is a folder or a device; give a file")
-        return path.open("ab+", buffering=0)
+        file = path.open("ab+", buffering=0)
     except OSError as error:
         raise CogmapError(f"cannot write {path} ({error.strerror or error}); choose another file") from error
-
-
-def _lock(file: FileIO, path: Path) -> None:
-    """Keep others out until the file is closed; where there are no locks, go without."""
     try:
         import fcntl
 
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
+        file.close()
         raise CogmapError(f"{path} is in use by another run; wait for its end, or give another file") from error
     except (ImportError, OSError):  # a system or a file system without locks
-        return
+        pass
+    return file
 
 
-def _read(file: FileIO, path: Path) -> tuple[dict[str, Any] | None, list[dict[str, Any]], int]:
+def _read(file: FileIO, path: Path) -> tuple[_Row | None, list[_Row], int]:
     """Header (None of an empty file), rows, and how many bytes are whole lines: the last one may be torn."""
     file.seek(0)
     lines = file.readall().splitlines(keepends=True)
-    if not lines or (len(lines) == 1 and _torn_header(lines[0])):
+    torn = len(lines) == 1 and not lines[0].endswith(b"\n")
+    if not lines or (torn and (lines[0].startswith(_BEGINNING) or _BEGINNING.startswith(lines[0]))):
         return None, [], 0
     header, *rows = map(_parsed, lines)
     if header is None or header.get("schema") != SCHEMA:
@@ -148,32 +149,19 @@ def _read(file: FileIO, path: Path) -> tuple[dict[str, Any] | None, list[dict[st
     if None in rows:
         number = rows.index(None) + 2
         raise CogmapError(f"{path}, line {number}: unreadable; remove this line, its run is made again")
-    return header, cast(list[dict[str, Any]], rows), sum(map(len, lines))
+    return header, cast(list[_Row], rows), sum(map(len, lines))
 
 
-def _torn_header(line: bytes) -> bool:
-    return not line.endswith(b"\n") and (line.startswith(_BEGINNING) or _BEGINNING.startswith(line))
-
-
-def _parsed(line: bytes) -> dict[str, Any] | None:
+def _parsed(line: bytes) -> _Row | None:
     """The object in a whole line; None if there is none."""
     try:
         value: Any = json.loads(line) if line.endswith(b"\n") else None
     except ValueError:
         return None
-    return cast(dict[str, Any], value) if isinstance(value, dict) else None
+    return cast(_Row, value) if isinstance(value, dict) else None
 
 
-def _difference(there: Mapping[str, Any], here: Mapping[str, Any]) -> tuple[str, Any, Any] | None:
-    """The first name with another value: its path, and both."""
-    old, new = dict(_leaves(there)), dict(_leaves(here))
-    pairs = ((name, old.get(name, _UNSET), new.get(name, _UNSET)) for name in {**new, **old})
-    return next((pair for pair in pairs if pair[1] != pair[2] and pair[0] not in ("schema", "version")), None)
-
-
-def _leaves(values: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+def _leaves(values: _Row, above: str = "") -> Iterator[tuple[str, Any]]:
     for name, value in values.items():
-        if isinstance(value, dict):
-            yield from _leaves(cast(dict[str, Any], value), f"{above}{name}.")
-        else:
-            yield f"{above}{name}", value
+        nested = isinstance(value, dict)
+        yield from _leaves(cast(_Row, value), f"{above}{name}.") if nested else [(f"{above}{name}", value)]

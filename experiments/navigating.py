@@ -1,14 +1,14 @@
-"""Navigating: how far does an agent walk to a sight that it prefers, in a maze it knows or not?"""
+"""Navigating: how far does an agent walk to a sight that it prefers, in a world it knows or not?"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Required, Unpack
+from typing import Any, Required, Unpack, cast
 
 from ..worlds import CanClose, Label, Place, offered
+from .exploring import frontier_search
 from .goals import WEIGHT, check_goal, shortest
-from .oracle import frontier_search
 from .records import OPTIONAL, Record, mean, ratio
 from .running import Moment, Watch
 from .session import Many, Options, Session, World, chart_of, described, draw_start, many, set_out
@@ -28,8 +28,7 @@ class NavigateRun(Record):
         steps_to_explore: None where it gave up, or set out unexplored.
         frontier_steps: of nearest-frontier search from `start` until it first stands in a room with the sight; only
             if the agent set out unexplored.
-        steps_to_stand: steps until the agent first stands in a room with the sight, whatever it chooses there; None
-            if never.
+        steps_to_stand: until the agent first stands in a room with the sight, whatever it chooses; None if never.
     """
 
     seed: int
@@ -51,7 +50,15 @@ class NavigateRun(Record):
 
 
 class NavigateOptions(Options, total=False):
-    """The options of `navigate`."""
+    """Who goes where.
+
+    Attributes:
+        goal: the label of the sight.
+        known: whether the agent explores first and is then silently moved to a random room, with nothing reset;
+            otherwise it prefers the goal from its first step in an unknown maze. True unless given.
+        weight: log preference of the goal, in nats; `WEIGHT` unless given.
+        closed: rooms that are closed while it is moved, after exploring with everything open.
+    """
 
     goal: Required[Label]
     known: bool
@@ -64,43 +71,28 @@ class NavigateMany(NavigateOptions, Many, total=False):
 
 
 def navigate(
-    world: World,
-    seed: int = 0,
-    *,
-    goal: Label,
-    known: bool = True,
-    weight: float = WEIGHT,
-    closed: Sequence[Place] = (),
-    watch: Watch | None = None,
-    **options: Unpack[Options],
+    world: World, seed: int = 0, *, watch: Watch | None = None, **options: Unpack[NavigateOptions]
 ) -> NavigateRun:
     """Let an agent go to a sight.
 
     Args:
         world: a maze, or an environment with a chart.
         seed: of everything random; start and exploring are those of `explore` with the same seed.
-        goal: the label of the sight.
-        known: whether the agent explores first and is then silently moved to a random room, with nothing reset;
-            otherwise it prefers the goal from its first step in an unknown maze.
-        weight: log preference of the goal, in nats.
-        closed: rooms that are closed while it is moved, after exploring with everything open.
         watch: looks on, from the first step to the last.
-        options: see `Options`.
+        options: see `NavigateOptions`.
 
     Raises:
         CogmapError: what `check_goal` raises, no agent has the name, a negative seed, or `max_steps` below 1.
         WorldError: a world that lacks what this needs.
     """
+    goal, known, weight, closed, others = _task(options)
     check_goal(world, goal, weight=weight, closed=closed, known=known)
-    session, chart = set_out("navigate", world, seed, **options), chart_of(world)
+    session, chart = set_out("navigate", world, seed, **others), chart_of(world)
     if not known:
+        start, for_agent, _ = draw_start("navigate", world, seed)
         steps, stood = _reach(session, goal, weight, watch)
-        for_agent = draw_start("navigate", world, seed)[1]
-        least, frontier = (
-            shortest(chart, session.start, goal),
-            frontier_search(chart, session.start, for_agent, goal=goal),
-        )
-        return NavigateRun(seed, session.start, steps is not None, steps, least, None, None, frontier, stood)
+        least, frontier = shortest(chart, start, goal), frontier_search(chart, start, for_agent, goal=goal)
+        return NavigateRun(seed, start, steps is not None, steps, least, None, None, frontier, stood)
     session.explore(watch)
     if session.steps is None:
         return NavigateRun(seed, None, False, None, None, session.start)
@@ -108,8 +100,8 @@ def navigate(
     for shut in closed:
         offered(session.world, CanClose, "close").close_room(shut)
     steps, stood = _reach(session, goal, weight, watch)
-    least, reached = shortest(chart, room, goal, closed), steps is not None
-    return NavigateRun(seed, room, reached, steps, least, session.start, session.steps, steps_to_stand=stood)
+    least, explored = shortest(chart, room, goal, closed), (session.start, session.steps)
+    return NavigateRun(seed, room, steps is not None, steps, least, *explored, steps_to_stand=stood)
 
 
 def navigate_many(world: World, **options: Unpack[NavigateMany]) -> list[NavigateRun]:
@@ -117,55 +109,41 @@ def navigate_many(world: World, **options: Unpack[NavigateMany]) -> list[Navigat
     return many(navigate, world, options)
 
 
-def navigate_result(
-    world: World,
-    runs: Sequence[NavigateRun],
-    *,
-    goal: Label,
-    known: bool = True,
-    weight: float = WEIGHT,
-    closed: Sequence[Place] = (),
-    **options: Unpack[Options],
-) -> dict[str, Any]:
+def navigate_result(world: World, runs: Sequence[NavigateRun], **options: Unpack[NavigateOptions]) -> dict[str, Any]:
     """World, agent, goal, settings, runs and summary, as plain JSON values; the options are those of `navigate`.
 
     Totals, means and the ratio of the totals are over the runs that reached the goal; `failed` counts the others.
     The ratio is None where none reached it, and where every one of them started there but walked all the same.
     """
-    chart, maker, most = described("navigate", world, **options)
+    goal, known, weight, closed, others = _task(options)
+    chart, maker, most = described("navigate", world, **others)
     there = [run for run in runs if run.reached]
     steps, least = [run.steps or 0 for run in there], [run.shortest or 0 for run in there]
     summary: dict[str, Any] = {"runs": len(runs), "reached": len(there), "failed": len(runs) - len(there)}
     if known:
         summary["explored"] = sum(run.steps_to_explore is not None for run in runs)
-    summary |= {
-        "max_steps": most,
-        "total_steps": sum(steps),
-        "total_shortest": sum(least),
-        "ratio": ratio(steps, least),
-        "mean_steps": mean(steps),
-        "mean_shortest": mean(least),
-    }
+    summary |= {"max_steps": most, "total_steps": sum(steps), "total_shortest": sum(least)}
+    summary |= {"ratio": ratio(steps, least), "mean_steps": mean(steps), "mean_shortest": mean(least)}
     if not known:
         frontier = [run.frontier_steps or 0 for run in there]
         summary |= {"total_frontier_steps": sum(frontier), "mean_frontier_steps": mean(frontier)}
-    return {
-        "world": chart.name,
-        "agent": maker.agent,
-        "goal": goal,
-        "weight": weight,
-        "unexplored": not known,
-        **({"closed": [list(room) for room in closed]} if closed else {}),
-        "settings": maker.to_dict(chart),
-        "runs": [run.to_dict() for run in runs],
-        "summary": summary,
-    }
+    head = {"world": chart.name, "agent": maker.agent, "goal": goal, "weight": weight, "unexplored": not known}
+    shut = {"closed": [list(room) for room in closed]} if closed else {}
+    rows = [run.to_dict() for run in runs]
+    return {**head, **shut, "settings": maker.to_dict(chart), "runs": rows, "summary": summary}
+
+
+def _task(options: NavigateOptions) -> tuple[Label, bool, float, Sequence[Place], Options]:
+    """Goal, whether the world is known, weight, closed rooms, and the other options."""
+    others = {name: value for name, value in options.items() if name in Options.__annotations__}
+    known, weight, closed = options.get("known", True), options.get("weight", WEIGHT), options.get("closed", ())
+    return options["goal"], known, weight, closed, cast(Options, others)
 
 
 def _reach(session: Session, goal: Label, weight: float, watch: Watch | None) -> tuple[int | None, int | None]:
     """Steps before it chooses to stay in a room with the sight, and before it first stands in one."""
     reached = stood = None
-    stay = session.world.unwrapped.motions.names.index("stay")
+    stay = chart_of(session.world).motions.names.index("stay")
 
     def look(moment: Moment) -> bool:
         nonlocal reached, stood

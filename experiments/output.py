@@ -56,20 +56,12 @@ def unused(path: Path) -> Path:
 
 
 def write_json(path: Path, value: Any) -> None:
-    """Write `value` as JSON; NaN and infinity are refused, null stands for "none".
-
-    Raises:
-        CogmapError: the file cannot be written.
-    """
+    """Write `value` as JSON; NaN and infinity are refused, null stands for "none"."""
     write_whole(path, (json.dumps(value, indent=2, allow_nan=False) + "\n").encode())
 
 
 def write_picture(path: Path, figure: Figure) -> None:
-    """Write the figure in the format of the suffix.
-
-    Raises:
-        CogmapError: the file cannot be written.
-    """
+    """Write the figure in the format of the suffix."""
     write_whole(path, picture_of(figure, path.suffix.lower().removeprefix(".")))
 
 

@@ -65,36 +65,23 @@ def map_tasks(
     return [results[index] for index in range(len(tasks))]
 
 
-def map_seeds(
-    function: Callable[[int], Result],
-    *,
-    runs: int,
-    seed: int = 0,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-) -> list[Result]:
-    """Results of the seeds `seed`, `seed + 1`, ..., so that each run can be repeated alone; see `map_tasks`.
+def map_seeds(function: Callable[[int], Result], *, runs: int, seed: int = 0, **how: Any) -> list[Result]:
+    """Results of the seeds `seed`, `seed + 1`, ..., so that each run can be repeated alone; `how` as for `map_tasks`.
 
     Raises:
         CogmapError: `runs` is below 1, or what `map_tasks` raises.
     """
     if runs < 1:
         raise CogmapError(f"runs is {runs}; use 1 or more")
-    return map_tasks(function, range(seed, seed + runs), executor=executor, on_done=on_done)
+    return map_tasks(function, range(seed, seed + runs), **how)
 
 
 def _results(left: dict[Future[Result], int]) -> Iterator[tuple[int, Result]]:
-    failed: Future[Result] | None = None
     for future in as_completed(list(left)):
         if not _succeeded(future):
-            failed = future
-            break
+            yield from ((i, done.result()) for done, i in left.items() if done.done() and _succeeded(done))
+            future.result()  # raises
         yield left.pop(future), future.result()
-    for future, index in list(left.items()):
-        if future.done() and _succeeded(future):
-            yield index, future.result()
-    if failed is not None:
-        failed.result()  # raises
 
 
 def _succeeded(future: Future[Any]) -> bool:

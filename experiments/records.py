@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any, Self, cast, get_type_hints
 
@@ -38,25 +38,37 @@ class Record:
         Raises:
             CogmapError: a value is missing, unknown or of a wrong kind.
         """
-        known: set[str] = set()
-        for name, hint, optional in _leaves(cls):
-            kind, fits = _KINDS[hint]
-            if name not in values and not optional:
-                raise CogmapError(f"row has no {name}; remove it, its run is made again")
-            if not fits(values.get(name)):
-                raise CogmapError(f"row has {name} = {values[name]!r}, not {kind}; remove it, its run is made again")
-            known.add(name)
-        if unknown := sorted(set(values) - known):
-            raise CogmapError(f"row has an unknown value {unknown[0]!r}; remove it, its run is made again")
-        return cls._made(values)
+        left, again = dict(values), "remove it, its run is made again"
+        row = cls._taken(left, again)
+        if left:
+            raise CogmapError(f"row has an unknown value {min(left)!r}; {again}")
+        return row
 
     @classmethod
-    def _made(cls, values: Mapping[str, Any]) -> Self:
+    def _taken(cls, left: dict[str, Any], again: str) -> Self:
+        """The row of values that are taken out of `left`."""
         made: dict[str, Any] = {}
-        for name, hint in get_type_hints(cls).items():
-            value = cast(Any, hint)._made(values) if is_dataclass(hint) else values.get(name)
-            made[name] = tuple(cast(list[Any], value)) if isinstance(value, list) else value
+        for part, hint in zip(fields(cast(Any, cls)), get_type_hints(cls).values(), strict=True):
+            if is_dataclass(hint):
+                made[part.name] = cast(Any, hint)._taken(left, again)
+                continue
+            if part.name not in left and "optional" not in part.metadata:
+                raise CogmapError(f"row has no {part.name}; {again}")
+            kind, value = _KINDS[hint], left.pop(part.name, None)
+            room = isinstance(value, list) and list(map(type, cast(list[Any], value))) == [int, int]
+            if type(value) not in kind[1] and not (room and hint is Place):
+                raise CogmapError(f"row has {part.name} = {value!r}, not {kind[0]}; {again}")
+            made[part.name] = tuple(cast(list[int], value)) if room else value
         return cls(**made)
+
+
+_KINDS: dict[Any, tuple[str, tuple[type, ...]]] = {
+    str: ("a word", (str,)),
+    int: ("a whole number", (int,)),
+    int | None: ("a whole number or null", (int, type(None))),
+    float: ("a number", (int, float)),
+    Place: ("a room", (int, str)),  # or a pair of whole numbers
+}
 
 
 def mean(values: Iterable[float | None]) -> float | None:
@@ -75,29 +87,3 @@ def ratio(steps: Iterable[int | None], least: Iterable[int | None]) -> float | N
     """Sum over sum: 1 where neither takes a step, None where only the second takes none, or nothing is there."""
     steps, total = [step or 0 for step in steps], sum(step or 0 for step in least)
     return sum(steps) / total if total else 1.0 if steps and not sum(steps) else None
-
-
-def _leaves(cls: Any) -> Iterator[tuple[str, Any, bool]]:
-    """Name and type of each field that is no record, and whether it may be missing."""
-    for part in fields(cls):
-        hint = get_type_hints(cls)[part.name]
-        yield from _leaves(hint) if is_dataclass(hint) else [(part.name, hint, "optional" in part.metadata)]
-
-
-def _whole(value: Any) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool)
-
-
-def _place(value: Any) -> bool:
-    """A room of a maze, or the name of a node."""
-    pair = isinstance(value, list) and len(cast(list[Any], value)) == 2 and all(map(_whole, cast(list[Any], value)))
-    return pair or _whole(value) or isinstance(value, str)
-
-
-_KINDS: dict[Any, tuple[str, Callable[[Any], bool]]] = {
-    str: ("a word", lambda value: isinstance(value, str)),
-    int: ("a whole number", _whole),
-    int | None: ("a whole number or null", lambda value: value is None or _whole(value)),
-    float: ("a number", lambda value: _whole(value) or isinstance(value, float)),
-    Place: ("a room", _place),
-}

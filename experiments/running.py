@@ -10,6 +10,7 @@ import gymnasium as gym
 
 from ..agent import Agent, StepRecord
 from ..model import CogmapError
+from ..worlds import World, offered
 
 Seen = tuple[Any, Mapping[str, Any]]
 """What a world shows: an observation, for the agent, and an info, which no agent sees."""
@@ -98,13 +99,12 @@ def run(
         watch: looks on.
 
     Raises:
-        CogmapError: `steps` below 1, or no agent for a world without motions.
+        CogmapError: `steps` below 1.
+        WorldError: no agent for a world without motions.
     """
     if steps < 1:
         raise CogmapError(f"run: steps is {steps}; use 1 or more")
-    if agent is None and not hasattr(world.unwrapped, "motions"):
-        raise CogmapError("run: the world has no motions to make an agent with; give one: run(world, Agent({…}), …)")
-    agent = agent or Agent(world.unwrapped.motions, seed=seed)  # type: ignore[attr-defined]
+    agent = agent or Agent(offered(world, World, "run without an agent").motions, seed=seed)
     observation, info = world.reset(seed=seed, options=options) if begin is None else begin
     kept = len(getattr(agent, "trace", ()))
     actions, truth, ended, stop = list[int](), list[Any](), False, False

@@ -41,10 +41,7 @@ class Options(TypedDict, total=False):
 
 
 class Many(Options, total=False):
-    """The same of `runs` runs, the first with `seed`; `executor` and `on_done` as for `map_seeds`.
-
-    But for seconds the rows do not depend on the executor.
-    """
+    """The same of `runs` runs, the first with `seed`; `executor` and `on_done` as for `map_tasks`."""
 
     runs: Required[int]
     seed: int
@@ -79,7 +76,7 @@ class Session:
 
     def __post_init__(self) -> None:
         self._seen = self.world.reset(seed=self.seed, options={"start": self.start})
-        self.truth = Truth(chart_of(self.world), self.start, motions=self.world.unwrapped.motions)
+        self.truth = Truth(chart_of(self.world), self.start)
 
     @property
     def place(self) -> Place:

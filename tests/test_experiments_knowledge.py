@@ -12,6 +12,7 @@ class Ring:
     """The chart of three places in a ring."""
 
     name, places, sights, positions = "ring", (0, 1, 2), {0: "a", 1: "b", 2: "c"}, None
+    motions = Motions(("on", "back", "stay"), ((1,), (-1,), (0,)))
 
     def successors(self, place: int) -> dict[str, int]:
         return {"on": (place + 1) % 3, "back": (place - 1) % 3, "stay": place}
@@ -89,8 +90,7 @@ def test_edges_must_hold_every_transition() -> None:
 
 
 def test_a_world_that_is_no_lattice_is_never_known() -> None:
-    ring = Ring()
-    truth = Truth(ring, 0, motions=Motions(("on", "back", "stay"), ((1,), (-1,), (0,))))
+    truth = Truth(Ring(), 0)
     agent = Agent({"on": (1,), "back": (-1,), "stay": (0,)}, seed=0)
     assert not truth.learned(agent.map)
     assert not truth.visited(agent.map)

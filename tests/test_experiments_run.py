@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
@@ -73,7 +75,7 @@ def test_a_map_is_drawn_of_any_world_with_motions() -> None:
     world.motions = done.agent.map.motions  # type: ignore[attr-defined]
     again = run(world, steps=6, seed=1)
     assert again.agent.steps == 6
-    with pytest.raises(CogmapError, match=r"run: the world has no motions.*give one"):
+    with pytest.raises(WorldError, match=r"run without an agent needs a world that is a cogmap\.worlds\.World"):
         run(Corridor(), steps=1)
 
 
@@ -149,3 +151,16 @@ def test_bad_input() -> None:
 
 def test_baselines_run_too() -> None:
     assert run(load_world("3x3"), RandomAgent(GRID, seed=0), steps=20, seed=0).observations == 20
+
+
+def test_the_how_to_page_adds_a_world_from_outside() -> None:
+    page = (Path(__file__).parent.parent / "docs" / "howto" / "add_a_world.md").read_text("utf-8")
+    names: dict[str, Any] = {"__name__": "page"}
+    for block in re.findall(r"^```python\n(.*?)^```", page, re.M | re.S):
+        exec(compile(block, "add_a_world.md", "exec"), names)
+    assert len(names["done"].agent.map.places) == 6
+    world = names["KnownHouse"]()
+    assert explore(world, 2).steps_to_complete is not None
+    assert navigate(world, 2, goal="bath", known=False, agent="frontier").reached
+    with pytest.raises(WorldError, match="HasChart"):
+        explore(names["House"]())

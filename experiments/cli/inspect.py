@@ -99,19 +99,11 @@ def _graph_file(map_file: Path, graph: str | None, of: str, out: Path | None) ->
 
 
 def _drawn(agent: Agent, graph: str, *, window: bool) -> bytes:
-    from ...model import MOST_DRAWN, CogmapError, graph_svg
     from ...views import plot_factor_graph, plot_map
     from .. import picture_of
 
     what = agent.graph if window else agent.map
     if graph in ("dot", "json"):
         return (what.to_dot() if graph == "dot" else what.to_json(indent=1)).encode(errors="replace")
-    if not window:
-        return picture_of(plot_map(agent.map).figure, graph)
-    if graph == "png":
-        return picture_of(plot_factor_graph(agent.graph).figure, graph)
-    drawn = graph_svg(agent.graph)
-    if drawn is None:
-        few = f"the window is empty, or has more than {MOST_DRAWN} nodes to draw"
-        raise CogmapError(f"inspect: {few}; use --graph dot")
-    return drawn.encode()
+    axes = plot_factor_graph(agent.graph) if window else plot_map(agent.map)
+    return picture_of(axes.figure, graph)
