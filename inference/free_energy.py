@@ -7,7 +7,7 @@ directed prior has Z_R = 1. F counts the factors as they are, so log Z_R stands 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ..model import AllEvidence, CogmapError, Factor, FactorGraph, FloatArray
 from .evidence import given
-from .posterior import Posterior, expected_log
+from .posterior import Name, Posterior, expected_log
 from .query import infer
 
 LIKELIHOOD_KINDS = frozenset({"sight", "walls", "likelihood"})
@@ -69,14 +69,14 @@ def free_energy(
         likelihood: which factors are likelihoods; by default `is_likelihood`.
         engine: computes Z_R.
     """
-    graph = posterior.graph.observe_all(posterior.evidence)
+    graph = _with_likelihoods(posterior.graph.without_evidence(), posterior.evidence, posterior.likelihoods)
     expected = {factor.label: posterior.expected_log(factor) for factor in graph.factors}
     return _parts(graph, expected, posterior.entropy, posterior.log_evidence, likelihood, engine)
 
 
 def free_energy_of(
     graph: FactorGraph,
-    q: Mapping[str, ArrayLike],
+    q: Mapping[Name, ArrayLike],
     *,
     evidence: AllEvidence | None = None,
     likelihood: Callable[[Factor], bool] | None = None,
@@ -94,8 +94,8 @@ def free_energy_of(
     Raises:
         CogmapError: a latent variable is missing from `q`, or its probabilities are none.
     """
-    graph = graph.observe_all(evidence or {})
-    given(graph)
+    known = given(graph, evidence)
+    graph = _with_likelihoods(graph.without_evidence(), known.labels, known.likelihoods)
     beliefs = _checked(graph, q)
     expected = {factor.label: _factorised_log(factor, beliefs) for factor in graph.factors}
     entropy = -sum(expected_log(belief, belief) for belief in beliefs.values())
@@ -134,11 +134,20 @@ def _parts(
     )
 
 
-def _checked(graph: FactorGraph, q: Mapping[str, ArrayLike]) -> dict[str, FloatArray]:
+def _with_likelihoods(
+    graph: FactorGraph, labels: Mapping[str, Hashable], likelihoods: Mapping[str, tuple[float, ...]]
+) -> FactorGraph:
+    """The graph with these labels as evidence, and soft evidence as factors: likelihoods, like those of sights."""
+    graph = graph.observe_all(labels)
+    for name, values in likelihoods.items():
+        graph.factor("evidence", [name], values, kind="likelihood")
+    return graph
+
+
+def _checked(graph: FactorGraph, q: Mapping[Name, ArrayLike]) -> dict[str, FloatArray]:
     """q for every variable: as given for the latent ones, one-hot for those that are known."""
     fixed = given(graph).fixed
-    for name in q:
-        graph.variable_named(name)
+    q = {graph.variable_named(name).name: belief for name, belief in q.items()}
     beliefs: dict[str, FloatArray] = {}
     for number, variable in enumerate(graph.variables):
         if number in fixed:

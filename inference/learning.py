@@ -14,7 +14,7 @@ from typing import Any, cast
 import numpy as np
 from scipy.special import digamma, gammaln
 
-from ..model import CogmapError, ConditionalTable, Factor, FactorGraph, FloatArray, IntArray
+from ..model import CogmapError, ConditionalTable, Factor, FactorGraph, FloatArray, IntArray, Variable
 from .errors import ImpossibleEvidence
 from .evidence import given
 from .exact import MEMORY, buckets, forward, plan_elimination, reduce, tree_of
@@ -22,7 +22,7 @@ from .exact import MEMORY, buckets, forward, plan_elimination, reduce, tree_of
 METHODS = ("em", "variational")
 CHUNK = 2**27
 """Bytes of products and messages that rows asked at once should take."""
-Data = Mapping[str, Sequence[Hashable]] | Sequence[Mapping[str, Hashable]]
+Data = Mapping[str, Sequence[Hashable]] | Sequence[Mapping[str, Hashable]] | Mapping[Variable, Sequence[Hashable]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,7 +190,7 @@ class _Rows:
 
     @classmethod
     def of(cls, graph: FactorGraph, data: Data) -> _Rows:
-        columns, count = _columns(data)
+        columns, count = _columns(graph, data)
         if count == 0 or any(len(column) != count for column in columns.values()):
             raise CogmapError("fit: the data have no rows, or variables have different numbers of them")
         known = {*graph.evidence, *graph.likelihoods}
@@ -269,16 +269,16 @@ class _Rows:
         )
 
 
-def _columns(data: Data) -> tuple[dict[str, Sequence[Hashable]], int]:
+def _columns(graph: FactorGraph, data: Data) -> tuple[Mapping[str, Sequence[Hashable]], int]:
     """Labels by variable, and the number of rows."""
     if isinstance(data, Mapping) or hasattr(data, "columns"):
-        columns = {str(name): list(column) for name, column in cast(Any, data).items()}
+        columns = {graph.variable_named(name).name: list(column) for name, column in cast(Any, data).items()}
         return columns, max(map(len, columns.values()), default=0)
     rows = list(data)
     if not all(isinstance(row, Mapping) for row in cast(list[object], rows)):
         raise CogmapError("fit: give a mapping of variables to labels, or a list of rows that are mappings")
     names = dict.fromkeys(name for row in rows for name in row)
-    return {name: [row.get(name) for row in rows] for name in names}, len(rows)
+    return {graph.variable_named(name).name: [row.get(name) for row in rows] for name in names}, len(rows)
 
 
 def _indices(graph: FactorGraph, name: str, column: Sequence[Hashable]) -> IntArray:

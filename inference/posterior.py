@@ -41,6 +41,11 @@ class Posterior:
         return MappingProxyType(dict(self._given.labels))
 
     @property
+    def likelihoods(self) -> Mapping[str, tuple[float, ...]]:
+        """Soft evidence, by name, one likelihood a label of the domain, that of the graph included (read-only)."""
+        return MappingProxyType(dict(self._given.likelihoods))
+
+    @property
     def log_evidence(self) -> float:
         """log Z = log Σ_x Π_f f(x_f), x over all that agrees with the evidence.
 

@@ -130,9 +130,14 @@ def marginal_map(
     return MostProbable(graph, log_probability, {name: labels[name] for name in names})
 
 
-def log_product(graph: FactorGraph, labels: Mapping[str, Hashable], known: Given | None = None) -> float:
+def log_product(
+    graph: FactorGraph, labels: Mapping[str, Hashable] | Mapping[Variable, Hashable], known: Given | None = None
+) -> float:
     """log Π_f f(x_f) at a full assignment of labels, soft evidence included; -inf where a factor is zero."""
-    known = known or given(graph)
+    known = known or Given({}, {}, {}, {number: np.array(values) for number, values in _soft(graph)})
+    labels = {graph.variable_named(name).name: label for name, label in labels.items()}
+    if missing := [variable.name for variable in graph.variables if variable.name not in labels]:
+        raise CogmapError(f"log_product: there is no label for {missing[0]!r}; give one for every variable")
     indices = [np.array([variable.index(labels[variable.name])]) for variable in graph.variables]
     wiring = graph.wiring
     values = [
@@ -140,6 +145,10 @@ def log_product(graph: FactorGraph, labels: Mapping[str, Hashable], known: Given
     ]
     values += [likelihoods[indices[i]] for i, likelihoods in known.soft.items()]
     return math.fsum(math.log(value[0]) if value[0] > 0 else -math.inf for value in values)
+
+
+def _soft(graph: FactorGraph) -> Iterable[tuple[int, tuple[float, ...]]]:
+    return ((graph.wiring.number[name], values) for name, values in graph.likelihoods.items())
 
 
 def checked_pairs(graph: FactorGraph, pairs: Iterable[Sequence[Name]]) -> list[tuple[str, ...]]:

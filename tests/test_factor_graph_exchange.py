@@ -191,7 +191,7 @@ def test_no_bif_at_all(text):
 
 
 def test_a_variable_without_a_table_or_with_two():
-    with pytest.raises(CogmapError, match="'bark' has no table"):
+    with pytest.raises(CogmapError, match="line 5: variable 'bark' has no table"):
         read_bif(DOG[: DOG.index("probability ( bark")])
     with pytest.raises(CogmapError, match="line 13: a second table"):
         read_bif(DOG + "probability ( family-out ) { table 0.5 0.5; }")

@@ -88,6 +88,8 @@ def test_looking_things_up():
         (3, (1,), "non-empty"),
         ("x", (), "empty"),
         ("x", "abc", "string"),
+        ("x", {1, 2}, "a set"),
+        ("x", frozenset({1}), "a set"),
         ("x", (1, 2, 1), "1 stands twice"),
         ("x", (1, True), "twice"),
         ("x", ([1],), "hashable"),

@@ -11,6 +11,7 @@ import pytest
 from cogmap.inference import (
     ImpossibleEvidence,
     compile_graph,
+    fit,
     infer,
     k_most_probable,
     log_product,
@@ -341,6 +342,12 @@ def test_names_and_variables_are_alike():
     assert infer(graph, targets=[x2]).entropy_of(x2) == infer(graph, targets=["x2"]).entropy_of("x2")
     assert marginal_map(graph, [x0]).assignment == marginal_map(graph, ["x0"]).assignment
     assert dict(graph.observe_all({x0: 1}).without_evidence(x0).evidence) == {}
+    assert graph.observe(x0, 1).is_observed("x0")
+    every = dict.fromkeys(graph.variables, 0)
+    assert log_product(graph, every) == log_product(graph, {variable.name: 0 for variable in every})
+    with pytest.raises(CogmapError, match="no label for 'x1'"):
+        log_product(graph, {x0: 0})
+    assert fit(graph.with_tables(), {x0: [0, 1]}).objective == fit(graph.with_tables(), [{"x0": 0}, {x0: 1}]).objective
     stranger = chain(1).variables[0].__class__("x0", ("p", "q"))
     for ask in (lambda: infer(graph).marginal(stranger), lambda: infer(graph, evidence={stranger: "p"})):
         with pytest.raises(CogmapError, match="not of this graph"):

@@ -53,7 +53,7 @@ def study_command(
 
     exploration, rooms and growth keep every finished run in DIR/cells.jsonl: the same command goes on from there.
     """
-    from ..executors import workers
+    from .. import workers
     from ..studies import EVERYTHING, Asked, run_studies, run_study, study_named
     from .group import INTERRUPTED, fail
 

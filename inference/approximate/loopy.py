@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from scipy.special import xlogy
 
 from ...model import CogmapError, Factor, FloatArray, IntArray
 from ..errors import impossible
-from ..exact import Problem, in_logs
+from ..exact import Problem, Solution, in_logs
 
 ZERO = -1e8
 """Stands for log 0."""
@@ -85,7 +86,7 @@ class LoopyReport:
 
 
 @dataclass(frozen=True, slots=True)
-class LoopySolution:
+class LoopySolution(Solution):
     """Beliefs of nodes and tables.
 
     Attributes:
@@ -103,7 +104,7 @@ class LoopySolution:
     scopes: Sequence[tuple[int, ...]]
     tables: Sequence[FloatArray]
     log_evidence: float
-    _no: str = field(default="; use an exact engine, or engine='sampling'", repr=False)
+    instead: ClassVar[str] = "use an exact engine, or engine='sampling'"
 
     def joint(self, names: Sequence[str]) -> FloatArray:
         """The belief of variables that have a factor in common."""
@@ -115,7 +116,9 @@ class LoopySolution:
                 summed = belief.sum(axis=tuple(axis for axis, i in enumerate(scope) if i not in wanted))
                 left = [i for i in scope if i in wanted]
                 return self.problem.expand(names, {wanted: summed.transpose([left.index(i) for i in wanted])})
-        raise CogmapError(f"loopy: no factor holds all of {', '.join(names)}, so there is no belief of them{self._no}")
+        raise CogmapError(
+            f"loopy: no factor holds all of {', '.join(names)}, so there is no belief of them; {self.instead}"
+        )
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
         """Of a large sparse factor the entries that agree with the evidence, and the belief of each; else None."""
@@ -128,17 +131,9 @@ class LoopySolution:
             return rows, p
         return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
 
-    def entropy(self) -> float:
-        """Not known."""
-        raise CogmapError(f"loopy: the entropy of all variables is not known{self._no}")
-
-    def sample(self, count: int, rng: np.random.Generator) -> IntArray:
-        """Not known."""
-        raise CogmapError(f"loopy: it gives no samples{self._no}")
-
     def standard_error(self, names: Sequence[str]) -> FloatArray:
         """Not known."""
-        raise CogmapError(f"loopy: how far its marginals are off is not known{self._no}")
+        raise CogmapError(f"loopy: how far its marginals are off is not known; {self.instead}")
 
 
 class _Group:

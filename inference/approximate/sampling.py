@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...model import CogmapError, Factor, FloatArray, IntArray
+from ...model import CogmapError, FloatArray, IntArray
 from ..errors import impossible
-from ..exact import Problem, Table, draw, eliminated, in_logs, plan_elimination, product
+from ..exact import Problem, Solution, Table, draw, eliminated, in_logs, plan_elimination, product
 
 Part = tuple[tuple[int, ...], Table]
 
@@ -99,7 +99,7 @@ class SamplingReport:
 
 
 @dataclass(frozen=True, slots=True)
-class SamplingSolution:
+class SamplingSolution(Solution):
     """Weighted samples.
 
     Attributes:
@@ -126,14 +126,6 @@ class SamplingSolution:
         squares = self.weights**2
         variance = self._counted(names, squares) * (1.0 - 2.0 * p) + squares.sum() * p**2
         return np.sqrt(np.maximum(variance, 0.0))  # rounding may leave less than 0
-
-    def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """None: they are not kept."""
-        return None
-
-    def entropy(self) -> float:
-        """Not known."""
-        raise CogmapError("sampling: the entropy of all variables is not estimated; use an exact engine")
 
     def sample(self, count: int, rng: np.random.Generator) -> IntArray:
         """`[variables, count]` indices of labels, drawn among the samples by weight."""

@@ -8,15 +8,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...model import CogmapError, Factor, FactorGraph, FloatArray, IntArray
+from ...model import CogmapError, FactorGraph, FloatArray, IntArray
 from ..errors import impossible
 from ..evidence import Given
+from .solution import Solution
 
 MOST_ASSIGNMENTS = 2_000_000
 
 
 @dataclass(frozen=True, slots=True)
-class BruteSolution:
+class BruteSolution(Solution):
     """All assignments with their posterior.
 
     Attributes:
@@ -37,14 +38,6 @@ class BruteSolution:
         result = np.zeros([self.graph.variable_named(name).cardinality for name in names])
         np.add.at(result, tuple(self.assignments[:, column[name]] for name in names), self.probabilities)
         return result
-
-    def standard_error(self, names: Sequence[str]) -> FloatArray:
-        """0: it is exact."""
-        return np.zeros_like(self.joint(names))
-
-    def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """None: it is asked for joints."""
-        return None
 
     def entropy(self) -> float:
         """H = -Σ_x P(x) log P(x), in nats."""

@@ -10,11 +10,12 @@ import numpy as np
 from ...model import Factor, FloatArray, IntArray
 from .buckets import Buckets, Pass, buckets, forward
 from .ordering import elimination
+from .solution import Solution
 from .tables import Table
 
 
 @dataclass(frozen=True, slots=True)
-class BucketTree:
+class BucketTree(Solution):
     """A tree of buckets in order of elimination; each is calibrated when it is asked for.
 
     Attributes:
@@ -89,10 +90,6 @@ class BucketTree:
             self._calibrated.add(here)
         return self.over[at]
 
-    def standard_error(self, names: Sequence[str]) -> FloatArray:
-        """0: it is exact."""
-        return np.zeros_like(self.joint(names))
-
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
         """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
         if factor.label not in self.plan.problem.entries:
@@ -133,8 +130,8 @@ def tree_of(done: Pass, memory: float, *, root: bool = False) -> BucketTree:
 def draw(weights: FloatArray, rng: np.random.Generator) -> IntArray:
     """`[n]` outcomes, each drawn from a column of `weights [outcomes, n]`, which need not be normalised."""
     up_to = np.cumsum(weights, axis=0)
-    # at most the last outcome that has weight, whatever rounding does
-    return (up_to < rng.random(weights.shape[1]) * up_to[-1] * (1.0 - 1e-15)).sum(axis=0)
+    # the first whose sum is above: it has weight itself, and rounding never leads beyond the last
+    return (up_to <= rng.random(weights.shape[1]) * up_to[-1] * (1.0 - 1e-15)).sum(axis=0)
 
 
 def entropy(belief: FloatArray) -> float:

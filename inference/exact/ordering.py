@@ -89,10 +89,11 @@ def elimination(
         cluster = plan.largest(problem.cards)
         names = ", ".join(problem.names[i] for i in cluster[:8]) + (", …" if len(cluster) > 8 else "")
         limit = f"memory={memory:.3g}" if bytes_ > memory else f"the {largest:.3g} entries of a cluster it takes"
+        other = "or approximate: engine='loopy', 'sampling'" if bytes_ > memory else "or use engine='numpy'"
         raise CogmapError(
             f"inference: needs {bytes_ / 1e9:.3g} GB ({bytes_:.3g} bytes), above {limit}; the largest cluster "
             f"({names}) has {_entries(problem.cards, cluster):.3g} entries. Give more memory=, narrow the domains, "
-            "observe one of them, give another `order`, use engine='numpy', or approximate: engine='loopy', 'sampling'"
+            f"observe one of them, give another `order`, {other}"
         )
     return plan
 

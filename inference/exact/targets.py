@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
-import numpy as np
-
-from ...model import CogmapError, Factor, FactorGraph, FloatArray, IntArray
+from ...model import Factor, FactorGraph, FloatArray, IntArray
 from ..evidence import Given
 from . import elimination
 from .bucket_tree import BucketTree
 from .elimination import Order
 from .problem import reduce
+from .solution import Solution
 
 
 @dataclass(frozen=True, slots=True)
-class TargetSolution:
+class TargetSolution(Solution):
     """The posterior of some variables.
 
     Attributes:
@@ -30,9 +30,10 @@ class TargetSolution:
     given: Given
     memory: float
     tree: BucketTree
+    instead: ClassVar[str] = "ask without `targets`"
 
     @property
-    def log_evidence(self) -> float:
+    def log_evidence(self) -> float:  # pyright: ignore[reportIncompatibleVariableOverride]
         """log Z, by a query of its own."""
         wiring, factors = self.graph.wiring, _needed(self.graph, self.given, ())
         barren = {wiring.scopes[at][0] for at in set(range(len(wiring.scopes))).difference(factors)}
@@ -44,21 +45,9 @@ class TargetSolution:
         """P(names | evidence), one axis a name; each of them a target."""
         return self.tree.joint(names)
 
-    def standard_error(self, names: Sequence[str]) -> FloatArray:
-        """0: it is exact."""
-        return np.zeros_like(self.joint(names))
-
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
         """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
         return self.tree.entries(factor)
-
-    def entropy(self) -> float:
-        """Not known."""
-        raise CogmapError("posterior: the entropy needs every variable; ask without `targets`")
-
-    def sample(self, count: int, rng: np.random.Generator) -> IntArray:
-        """Not known."""
-        raise CogmapError("posterior: a sample needs every variable; ask without `targets`")
 
 
 def solve(graph: FactorGraph, given: Given, targets: Sequence[str], order: Order, memory: float) -> TargetSolution:

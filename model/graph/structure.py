@@ -241,8 +241,9 @@ class GraphStructure:
             raise CogmapError(f"graph: {len(found)} factors are called {name!r}; give a label such as 'B(x, y)'")
         return found[0]
 
-    def is_observed(self, variable: Variable) -> bool:
+    def is_observed(self, name: str | Variable) -> bool:
         """Whether the variable is an observation or has evidence."""
+        variable = self.variable_named(name)
         return variable.observed or variable.name in self._evidence
 
     def _member(self, item: str | Variable, where: str) -> Variable:

@@ -11,6 +11,7 @@ from typing import NoReturn
 
 import numpy as np
 
+from ...errors import CogmapError
 from ..factor_graph import FactorGraph
 from ..factors import FloatArray
 from .network import Conditional, conditionals_of, failed, network, texts
@@ -65,7 +66,7 @@ def _quoted(text: str) -> str:
     if _PLAIN.fullmatch(text) and "//" not in text:
         return text
     if '"' in text or "\n" in text or not text:
-        raise failed("BIF", 0, f"cannot write {text!r}; rename it, without quotation marks and line breaks")
+        raise CogmapError(f"BIF: cannot write {text!r}; rename it, without quotation marks and line breaks")
     return f'"{text}"'
 
 
@@ -75,6 +76,7 @@ class _Reader:
     def __init__(self, text: str) -> None:
         self.text = text
         self.domains: dict[str, Sequence[str]] = {}
+        self.lines: dict[str, int] = {}
         self.conditionals: list[Conditional] = []
 
     def graph(self) -> FactorGraph:
@@ -93,7 +95,7 @@ class _Reader:
             )
         if not self.domains:
             self._fail(0, "there are no variables; is this a BIF file?")
-        return network("BIF", self.domains, self.conditionals)
+        return network("BIF", self.domains, self.lines, self.conditionals)
 
     def _variable(self, words: Sequence[str], begin: int, end: int) -> None:
         body = self.text[begin:end]
@@ -105,7 +107,7 @@ class _Reader:
             self._fail(begin, f"a second variable {words[0]!r}; rename it")
         if len(labels) != int(found[1]) or len(set(labels)) < len(labels):
             self._fail(begin + found.start(), f"{words[0]!r} has {len(set(labels))} labels, not {found[1]}")
-        self.domains[words[0]] = labels
+        self.domains[words[0]], self.lines[words[0]] = labels, self._line(begin)
 
     def _probability(self, words: Sequence[str], begin: int, end: int) -> None:
         if unknown := [word for word in words if word not in self.domains]:

@@ -32,8 +32,10 @@ class Conditional:
     line: int
 
 
-def network(what: str, domains: Mapping[str, Sequence[str]], conditionals: Sequence[Conditional]) -> FactorGraph:
-    """The graph of a file's variables and conditionals, columns scaled to sum to 1.
+def network(
+    what: str, domains: Mapping[str, Sequence[str]], lines: Mapping[str, int], conditionals: Sequence[Conditional]
+) -> FactorGraph:
+    """The graph of a file's variables, declared on these lines, and conditionals; columns scaled to sum to 1.
 
     Raises:
         CogmapError: a value is missing, negative or not finite; a column does not sum to 1 within `ROUNDED`; a
@@ -55,7 +57,7 @@ def network(what: str, domains: Mapping[str, Sequence[str]], conditionals: Seque
             raise failed(what, each.line, f"a column of {each.child!r} sums to {worst:.6g}, not to 1; mend the table")
         graph.factor("P", [each.child, *each.parents], each.values / sums, kind="conditional")
     if missing := [name for name in domains if name not in seen]:
-        raise CogmapError(f"{what}: variable {missing[0]!r} has no table; add its probabilities")
+        raise failed(what, lines[missing[0]], f"variable {missing[0]!r} has no table; add its probabilities")
     return graph
 
 

@@ -42,15 +42,16 @@ def read_xmlbif(text: str) -> FactorGraph:
     if len(networks) != 1:
         _fail(root, f"{len(networks)} elements NETWORK; there must be one")
     domains: dict[str, list[str]] = {}
+    lines: dict[str, int] = {}
     for each in networks[0].all("VARIABLE"):
         name, labels = _only(each, "NAME"), [label.text.strip() for label in each.all("OUTCOME", "VALUE")]
         if name in domains or not labels or len(set(labels)) < len(labels):
             _fail(each, f"variable {name!r} is there twice, or its outcomes are missing or not different")
-        domains[name] = labels
+        domains[name], lines[name] = labels, each.line
     if not domains:
         _fail(networks[0], "there are no variables; is this an XMLBIF file?")
     conditionals = [_conditional(each, domains) for each in networks[0].all("DEFINITION", "PROBABILITY")]
-    return network("XMLBIF", domains, conditionals)
+    return network("XMLBIF", domains, lines, conditionals)
 
 
 def write_xmlbif(graph: FactorGraph) -> str:
