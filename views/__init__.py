@@ -1,10 +1,15 @@
-"""How it is shown: the world, the map learned, beliefs, policies and energies, as plots, words and a page."""
+"""How it is shown: the world, the map learned, beliefs, policies and energies, as plots, words and a page.
+
+Every plot takes `title`, which goes above it, and `ax`, axes to draw on, new ones unless given; it returns the axes.
+Pictures of a map take `chart`, the true map (`world.chart`, or a maze) to be drawn faintly beneath, and `start`, the
+place of the chart, or row and column, that the agent takes as its origin.
+"""
 
 from __future__ import annotations
 
 from .belief_plot import plot_belief, plot_belief_bars, plot_belief_map
-from .colours import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, YELLOW, contrast, hexed, ink_on, sight_colour
-from .explain import Explanation, explain
+from .explain import explain
+from .explanation import Explanation
 from .figures import explore_figure
 from .graph_plot import plot_factor_graph
 from .growth_frames import GrowthFrames
@@ -14,7 +19,22 @@ from .policy_plot import plot_policies, policy_paths
 from .recording import Recorder, Recording
 from .replay import replay_html
 from .terms_plot import plot_terms
-from .theme import Theme, theme_of
+from .theme import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    YELLOW,
+    Theme,
+    contrast,
+    hexed,
+    ink_on,
+    sight_colour,
+    theme_of,
+)
 from .time_plots import plot_certainty, plot_expected_free_energy, plot_free_energy, plot_surprise
 from .world_plot import plot_world
 

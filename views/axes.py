@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from ..model import CogmapError
 
@@ -15,8 +15,15 @@ Cell = tuple[float, float]
 """Row and column."""
 
 
-def axes_or_new(ax: Axes | None, title: str | None = None, *, size: tuple[float, float] = (6.0, 5.0)) -> Axes:
-    """`ax`, or the axes of a new figure of `size` inches that belongs to no window, with a title if there is one."""
+class Where(TypedDict, total=False):
+    """Where a plot goes."""
+
+    title: str | None  # above it
+    ax: Axes | None  # to draw on; new ones unless given
+
+
+def axes_or_new(*, size: tuple[float, float] = (6.0, 5.0), title: str | None = None, ax: Axes | None = None) -> Axes:
+    """`ax`, or the axes of a new figure of `size` inches that belongs to no window, with the title."""
     from matplotlib.figure import Figure
 
     ax = Figure(figsize=size, layout="constrained").add_subplot() if ax is None else ax

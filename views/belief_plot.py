@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..inference.message import Belief
+from ..inference import Belief
 from ..model import CogmapError, CognitiveMap
 from ..worlds import Chart
-from .axes import Cell, axes_or_new, write_in
-from .colours import SKY, VERMILION
+from .axes import Where, axes_or_new, write_in
 from .map_picture import MapPicture
 from .map_plot import draw_map, underlay
 from .picture import RADIUS
-from .theme import theme_of
+from .theme import SKY, VERMILION, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,12 +28,7 @@ LEAST = 0.005  # places that are less probable are not marked
 
 
 def plot_belief(
-    belief: Mapping[str, float],
-    *,
-    true: str | None = None,
-    threshold: float | None = None,
-    title: str | None = None,
-    ax: Axes | None = None,
+    belief: Mapping[str, float], *, true: str | None = None, threshold: float | None = None, **where: Unpack[Where]
 ) -> Axes:
     """A bar for each place, as high as it is probable.
 
@@ -43,23 +36,21 @@ def plot_belief(
         belief: Q(s) by what each place is called.
         true: where the agent is: its bar has another colour and a hatch, and its name a sign.
         threshold: certainty from which the agent counts as certain, drawn as a line.
-        title: above the plot.
-        ax: axes to draw on; new ones unless given.
 
     Raises:
         CogmapError: no places, or a value that is no probability.
     """
-    values = _checked("plot_belief", belief)
-    ax = axes_or_new(ax, title)
+    _checked("plot_belief", belief)
+    ax = axes_or_new(**where)
     theme = theme_of(ax)
-    bars = ax.bar(np.arange(len(values)), values, color=OTHER, edgecolor=theme.shade(0.8), linewidth=0.8)
+    bars = ax.bar(range(len(belief)), list(belief.values()), color=OTHER, edgecolor=theme.shade(0.8), linewidth=0.8)
     names = [f"▲ {place}" if place == true else place for place in belief]
     for bar, place in zip(bars, belief, strict=True):
         if place == true:
             bar.set(facecolor=TRUE, hatch="///")
     if threshold is not None:
         ax.axhline(threshold, color=theme.shade(0.6), linewidth=0.8, linestyle=(0, (4, 3)))
-    ax.set_xticks(np.arange(len(values)), names, parse_math=False)
+    ax.set_xticks(range(len(names)), names, parse_math=False)
     _turn_long_names(ax, names)
     ax.set_ylim(0.0, 1.05)
     ax.set_yticks([0.0, 0.5, 1.0])
@@ -72,8 +63,7 @@ def plot_belief_bars(
     map_: CognitiveMap | None = None,
     most: int = 12,
     threshold: float | None = None,
-    title: str | None = None,
-    ax: Axes | None = None,
+    **where: Unpack[Where],
 ) -> Axes:
     """A bar for each place, the most probable on top; those after the first `most` are added up.
 
@@ -82,19 +72,17 @@ def plot_belief_bars(
         map_: says where each place is.
         most: places with a bar of their own, 1 or more.
         threshold: certainty from which the agent counts as certain, drawn as a line.
-        title: above the plot.
-        ax: axes to draw on; new ones unless given.
 
     Raises:
         CogmapError: no places, a value that is no probability, a place that the map does not have, or `most` below 1.
     """
     if most < 1:
         raise CogmapError(f"plot_belief_bars: most is {most}; use 1 or more")
-    shares = _shares("plot_belief_bars", belief)
+    shares = _checked("plot_belief_bars", belief)
     bars = {_name(place, map_): q for place, q in list(shares.items())[:most]}
     if len(shares) > most:
         bars[f"{len(shares) - most} more"] = sum(list(shares.values())[most:])
-    ax = axes_or_new(ax, title, size=(6.0, 1.2 + 0.32 * len(bars)))
+    ax = axes_or_new(size=(6.0, 1.2 + 0.32 * len(bars)), **where)
     theme = theme_of(ax)
     rows = np.arange(len(bars))
     ax.barh(rows, list(bars.values()), height=0.7, color=OTHER, edgecolor=theme.shade(0.8), linewidth=0.8)
@@ -111,55 +99,43 @@ def plot_belief_bars(
 
 
 def plot_belief_map(
-    belief: Places,
-    map_: CognitiveMap,
-    *,
-    chart: Chart | None = None,
-    start: Any = (0, 0),
-    title: str | None = None,
-    ax: Axes | None = None,
+    belief: Places, map_: CognitiveMap, *, chart: Chart | None = None, start: Any = (0, 0), **where: Unpack[Where]
 ) -> Axes:
     """The map, and behind each place a disc as strong as it is probable that the agent is there.
 
     Args:
         belief: the agent's, or Q(s) by number of the place.
         map_: the map, in one or two dimensions.
-        chart: the true map, drawn faintly beneath: `world.chart`, or a maze.
-        start: the place that the agent takes as its origin: of the chart, or row and column.
-        title: above the plot.
-        ax: axes to draw on; new ones unless given.
 
     Raises:
         CogmapError: no places, a value that is no probability, a place that the map does not have, positions of
             more than two dimensions, or `start` is no place of the chart.
     """
-    shares = {place: q for place, q in _shares("plot_belief_map", belief).items() if q >= LEAST}
+    from matplotlib.patches import Circle
+
+    shares = {place: q for place, q in _checked("plot_belief_map", belief).items() if q >= LEAST}
     picture = MapPicture.of(map_)
     lost = sum(q for place, q in shares.items() if map_.position(place) is None and place not in picture.cells)
-    ax = axes_or_new(ax, title)
+    ax = axes_or_new(**where)
     notes = [f"{_percent(lost)} of the belief among them"] if lost else []
     cells = draw_map(ax, picture, *underlay(chart, start), notes=notes, margin=0.35).cells
+    theme, box = theme_of(ax), (0.56, 0.24)
     for place, q in shares.items():
         if place in cells:
-            _draw_share(ax, cells[place], q)
+            row, column = cells[place]
+            look: dict[str, Any] = {"facecolor": (*VERMILION, q), "edgecolor": theme.line(VERMILION), "linewidth": 1.4}
+            ax.add_artist(Circle((column, row), HALO, zorder=1.5, **look))
+            look = {"cut": False, "largest": 10.0, "ha": "left", "color": theme.ink, "zorder": 4}
+            write_in(ax, column + RADIUS, row + 0.4, _percent(q), box=box, **look)  # where no way and no wall runs
     return ax
 
 
-def _draw_share(ax: Axes, cell: Cell, q: float) -> None:
-    from matplotlib.patches import Circle
-
-    theme, (row, column) = theme_of(ax), cell
-    look: dict[str, Any] = {"facecolor": (*VERMILION, q), "edgecolor": theme.line(VERMILION), "linewidth": 1.4}
-    ax.add_artist(Circle((column, row), HALO, zorder=1.5, **look))
-    # below and to the right, where no way and no wall runs
-    at = (column + RADIUS, row + 0.4)
-    write_in(ax, *at, _percent(q), box=(0.56, 0.24), cut=False, largest=10.0, ha="left", color=theme.ink, zorder=4)
-
-
-def _shares(who: str, belief: Places) -> dict[int, float]:
+def _checked(who: str, belief: Belief | Mapping[Any, float]) -> dict[Any, float]:
     """Q(s) by place, the most probable first."""
     places = belief.places if isinstance(belief, Belief) else belief
-    _checked(who, places)
+    values = np.array(list(places.values()), dtype=np.float64)
+    if not len(values) or not ((values >= 0.0) & (values <= 1.0 + 1e-9)).all():
+        raise CogmapError(f"{who}: give a probability from 0 to 1 for each of one or more places")
     return dict(sorted(places.items(), key=lambda item: -item[1]))
 
 
@@ -179,17 +155,9 @@ def _turn_long_names(ax: Axes, names: Sequence[str]) -> None:
     from matplotlib import rcParams
     from matplotlib.font_manager import FontProperties
 
-    figure = ax.get_figure(root=True)
-    assert figure is not None
-    pitch = 72 * figure.get_size_inches()[0] * ax.get_position().width / len(names)
     size = FontProperties(size=rcParams["xtick.labelsize"]).get_size_in_points()
     longest = max(len(line) for name in names for line in name.split("\n"))
-    if 0.65 * size * longest > pitch:
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    if 0.65 * size * longest > 72 * figure.get_size_inches()[0] * ax.get_position().width / len(names):
         ax.tick_params(axis="x", labelrotation=90)
-
-
-def _checked(who: str, belief: Mapping[str, float] | Mapping[int, float]) -> NDArray[np.float64]:
-    values = np.array(list(belief.values()), dtype=np.float64)
-    if not len(values) or not ((values >= 0.0) & (values <= 1.0 + 1e-9)).all():
-        raise CogmapError(f"{who}: give a probability from 0 to 1 for each of one or more places")
-    return values

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..agent import StepRecord
 from ..model import CognitiveMap
-from ..worlds import Chart, Place
+from ..worlds import Chart
 from .map_plot import plot_map
-from .time_plots import plot_expected_free_energy, plot_free_energy
+from .time_plots import Trace, plot_expected_free_energy, plot_free_energy
 from .world_plot import plot_world, world_picture
 
 if TYPE_CHECKING:
@@ -19,12 +18,7 @@ WIDTH = 5.5  # of a plot, inches
 
 
 def explore_figure(
-    chart: Chart,
-    path: Sequence[Place],
-    *,
-    map_: CognitiveMap | None = None,
-    trace: Sequence[StepRecord] = (),
-    title: str | None = None,
+    chart: Chart, path: Sequence[Any], *, map_: CognitiveMap | None = None, trace: Trace = (), title: str | None = None
 ) -> Figure:
     """The world with the path, the map learned, F and G over time.
 
@@ -51,8 +45,8 @@ def explore_figure(
     grid = figure.add_gridspec(len(heights), across, height_ratios=heights)
     plot_world(chart, path=path, title="path, from black to white", ax=figure.add_subplot(grid[0, 0]))
     if map_ is not None:
-        name = "map learned" if map_.visited.all() else "map learned (hollow: imagined)"
-        plot_map(map_, title=name, ax=figure.add_subplot(grid[0, 1]))
+        hollow = "" if map_.visited.all() else " (hollow: imagined)"
+        plot_map(map_, title=f"map learned{hollow}", ax=figure.add_subplot(grid[0, 1]))
     if trace:
         plot_free_energy(trace, title="free energy and certainty", ax=figure.add_subplot(grid[1, 0]))
     if trace and map_ is not None:

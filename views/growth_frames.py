@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..agent import Agent
-from ..model import CogmapError, GrowthEvent, make_folder, write_through, write_whole
+from ..model import CogmapError, GrowthEvent, make_folder, write_through
 from ..worlds import Chart
 from .axes import Cell, axes_or_new
-from .colours import VERMILION
-from .map_picture import MapPicture, MapWatch
+from .map_picture import MapPicture
 from .map_plot import draw_map, underlay
 from .picture import RADIUS
-from .theme import theme_of
+from .theme import VERMILION, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,38 +32,25 @@ _WORDS = {"place": "imagined", "bind": "bound", "unbind": "unbound", "retract": 
 
 @dataclass(frozen=True, slots=True)
 class GrowthFrame:
-    """One moment of a growing map.
+    """One moment of a growing map."""
 
-    Attributes:
-        step: of the agent's last observation.
-        delta: what has changed in the map since the frame before, as `MapPicture.apply` takes it.
-        place: where the agent believed to be.
-        news: what had been added since the frame before, in words.
-    """
-
-    step: int
-    delta: dict[str, Any]
-    place: int
-    news: str
+    step: int  # of the agent's last observation
+    delta: dict[str, Any]  # what has changed in the map since the frame before, as `MapPicture.apply` takes it
+    place: int  # where the agent believed to be
+    news: str  # what had been added since the frame before
 
 
 class GrowthFrames:
     """Pictures of an agent's map, one a step; what did not change from one to the next is kept once.
 
     Example: `frames = GrowthFrames()`, then `frames.add(agent)` after each step, and `frames.save_gif("map.gif")`.
-
-    Args:
-        chart: the true map, drawn faintly beneath: `world.chart`, or a maze.
-        start: the place that the agent takes as its origin: of the chart, or row and column.
-
-    Attributes:
-        frames: the frames so far.
+    The `frames` so far can be read.
     """
 
     def __init__(self, *, chart: Chart | None = None, start: Any = (0, 0)) -> None:
         self.frames: list[GrowthFrame] = []
         self._world, self._origin = underlay(chart, start)
-        self._watch: MapWatch | None = None
+        self._map: MapPicture | None = None
         self._logged = 0
         self._cells: set[Cell] = set()  # where there is a place in any of the frames
 
@@ -78,14 +65,16 @@ class GrowthFrames:
         """
         place, news = agent.belief.place, _news(agent.map.growth[self._logged :])
         self._logged = len(agent.map.growth)
-        self._watch = self._watch or MapWatch(agent.map)
-        self.frames.append(GrowthFrame(agent.steps - 1, self._watch.delta(), place, news))
-        self._cells.update(self._watch.picture.drawn(self._origin).cells.values())
+        self._map = self._map or MapPicture(agent.map.motions, agent.map.sights)
+        self.frames.append(GrowthFrame(agent.steps - 1, self._map.update(agent.map), place, news))
+        if self._map.located:
+            self._cells.update(self._map.drawn(self._origin).cells.values())
 
     def maps(self) -> Iterator[MapPicture]:
         """The map at each frame: always the same object, changed in place."""
-        if self._watch is not None:
-            picture = self._watch.picture.blank()
+        if self._map is not None:
+            layout = None if self._map.located else self._map.cells  # so that places stay where they are
+            picture = MapPicture(self._map.motions, self._map.sights, layout=layout)
             for frame in self.frames:
                 picture.apply(frame.delta)
                 yield picture
@@ -101,15 +90,19 @@ class GrowthFrames:
         Raises:
             CogmapError: there is no such frame.
         """
+        from matplotlib.patches import Circle
+
         if not -len(self) <= index < len(self):
             raise CogmapError(f"growth frames: there is no frame {index}; there are {len(self)}, call add(agent) first")
-        index %= len(self)
-        frame, picture = self.frames[index], next(islice(self.maps(), index, None))
-        ax = axes_or_new(ax, size=(6.0, 6.0))
+        frame, picture = self.frames[index], next(islice(self.maps(), index % len(self), None))
+        ax = axes_or_new(ax=ax, size=(6.0, 6.0))
         cells = draw_map(ax, picture, self._world, self._origin, room=self._cells).cells
         if frame.place in cells:
-            _draw_here(ax, *cells[frame.place])
-        ax.set_title(_caption(frame, picture) if title is None else title, fontsize="medium")
+            (row, column), colour = cells[frame.place], theme_of(ax).line(VERMILION)
+            ax.add_artist(Circle((column, row), HERE, fill=False, edgecolor=colour, linewidth=2.5, zorder=4))
+        size = f"{len(picture.places)} place{'s' if len(picture.places) != 1 else ''}, {picture.visited} visited"
+        caption = f"step {frame.step}: {size}\n{frame.news or 'nothing new'}"
+        ax.set_title(caption if title is None else title, fontsize="medium")
         return ax
 
     def save_gif(self, path: str | PathLike[str], *, seconds: float = 0.5, last: float = 2.0) -> Path:
@@ -133,17 +126,19 @@ class GrowthFrames:
             raise CogmapError(
                 f"growth frames: {seconds} and {last} seconds a frame; give positive times of a minute or so"
             )
-        self._check()
-        shown = [*range(len(self)), *[len(self) - 1] * (max(round(last / seconds), 1) - 1)]
+        drawn = self._drawn()
 
-        def draw(target: Path) -> None:
-            figure, writer = _figure(), PillowWriter(fps=1 / seconds)  # pyright: ignore[reportArgumentType]
-            with writer.saving(figure, str(target), dpi=PIXELS):
-                for index in shown:
-                    self._draw(figure, index)
+        def write(target: Path) -> None:
+            writer = PillowWriter(fps=1 / seconds)  # pyright: ignore[reportArgumentType]
+            for number, figure in enumerate(drawn):
+                if not number:
+                    writer.setup(figure, str(target), dpi=PIXELS)
+                stays = max(round(last / seconds), 1) if number == len(self) - 1 else 1
+                for _ in range(stays):
                     writer.grab_frame(facecolor=figure.get_facecolor())
+            writer.finish()
 
-        return write_through(path, draw)
+        return write_through(path, write)
 
     def save_pngs(self, folder: str | PathLike[str]) -> list[Path]:
         """Write each frame as `frame_0000.png` and so on into a folder, which is made where it is missing.
@@ -154,49 +149,24 @@ class GrowthFrames:
         Raises:
             CogmapError: there are no frames, or a file that cannot be written.
         """
-        self._check()
-        target, figure = make_folder(Path(folder)), _figure()
-        written: list[Path] = []
-        for index in range(len(self)):
-            self._draw(figure, index)
-            written.append(write_whole(target / f"frame_{index:04}.png", _png(figure)))
-        return written
+        drawn, target = enumerate(self._drawn()), make_folder(Path(folder))
+        paths = ((target / f"frame_{index:04}.png", figure) for index, figure in drawn)
+        return [write_through(path, partial(figure.savefig, dpi=PIXELS)) for path, figure in paths]
 
-    def _check(self) -> None:
+    def _drawn(self) -> Iterator[Figure]:
+        """The figure of each frame: always the same, drawn anew."""
+        from matplotlib.figure import Figure
+
         if not self.frames:
             raise CogmapError("growth frames: there are none yet; call add(agent) after each step")
+        figure = Figure(figsize=(6.0, 6.0), layout="constrained")
 
-    def _draw(self, figure: Figure, index: int) -> None:
-        figure.clear()
-        self.plot(index, ax=figure.add_subplot())
+        def draw(index: int) -> Figure:
+            figure.clear()
+            self.plot(index, ax=figure.add_subplot())
+            return figure
 
-
-def _figure() -> Figure:
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(6.0, 6.0), layout="constrained")
-
-
-def _png(figure: Figure) -> bytes:
-    from io import BytesIO
-
-    buffer = BytesIO()
-    figure.savefig(buffer, format="png", dpi=PIXELS)
-    return buffer.getvalue()
-
-
-def _draw_here(ax: Axes, row: float, column: float) -> None:
-    from matplotlib.patches import Circle
-
-    colour = theme_of(ax).line(VERMILION)
-    ax.add_artist(Circle((column, row), HERE, fill=False, edgecolor=colour, linewidth=2.5, zorder=4))
-
-
-def _caption(frame: GrowthFrame, picture: MapPicture) -> str:
-    """The step, the size of the map, and what is new, in two lines."""
-    size = len(picture.places)
-    places = f"{size} place{'s' if size != 1 else ''}, {picture.visited} visited"
-    return f"step {frame.step}: {places}\n{frame.news or 'nothing new'}"
+        return map(draw, range(len(self)))
 
 
 def _news(events: Sequence[GrowthEvent]) -> str:

@@ -44,16 +44,10 @@ def _settled(graph: nx.Graph[Any], nodes: Sequence[Any]) -> Floats:
 
     if len(nodes) == 1:
         return np.zeros((1, 2))
-    start = nx.circular_layout(graph)
-    if len(nodes) <= MANY:
-        places = nx.kamada_kawai_layout(graph, pos=start)
-    else:
-        places = nx.spring_layout(graph, pos=start, seed=0)
-    points = np.array([places[node] for node in nodes])
-    number = {node: at for at, node in enumerate(nodes)}
-    ends = np.array([(number[a], number[b]) for a, b in graph.edges])
-    lengths = np.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
-    return points * 1.1 / max(float(np.median(lengths)), 1e-9)
+    start, few = nx.circular_layout(graph), len(nodes) <= MANY
+    places = nx.kamada_kawai_layout(graph, pos=start) if few else nx.spring_layout(graph, pos=start, seed=0)
+    lengths = [float(np.linalg.norm(places[a] - places[b])) for a, b in graph.edges]
+    return np.array([places[node] for node in nodes]) * 1.1 / max(float(np.median(lengths)), 1e-9)
 
 
 def _apart(points: Floats) -> Floats:

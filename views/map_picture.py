@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -19,17 +19,10 @@ if TYPE_CHECKING:
 
 Ints = NDArray[np.int64]
 
-NOTICEABLE = 5e-4
-"""A transition is told again once its probability differs by that much from the one told last."""
-
-LEAST = 0.05
-"""Transitions that are less probable are not drawn."""
-
-DIGITS = 4
-"""Of a probability."""
-
-KNOWN = ("unknown", "imagined", "walked", "refuted")
-"""How a transition is known, as in `CognitiveMap.to_networkx`; a picture has the index."""
+NOTICEABLE = 5e-4  # by how much a probability differs from the one told last before it is told again
+LEAST = 0.05  # transitions that are less probable are not drawn
+DIGITS = 4  # of a probability
+KNOWN = ("unknown", "imagined", "walked", "refuted")  # as in `CognitiveMap.to_networkx`; a picture has the index
 
 Place = tuple[tuple[int, ...] | None, bool, int | None, float]
 """Position, whether it was visited, number of the most probable sight (None before the first look), its probability."""
@@ -40,37 +33,27 @@ Row = tuple[int, tuple[tuple[int, float], ...]]
 
 @dataclass(slots=True)
 class MapPicture:
-    """A map as it is shown at some step; `apply` takes it to the next.
+    """A map as it is shown at some step; `apply` takes it to the next."""
 
-    Attributes:
-        motions: the actions.
-        sights: the labels, by number.
-        places: by number.
-        rows: by place and action.
-    """
-
-    motions: Motions
-    sights: Domain | Sequence[Hashable]
-    places: list[Place] = field(default_factory=list[Place])
-    rows: dict[tuple[int, int], Row] = field(default_factory=dict[tuple[int, int], Row])
+    motions: Motions  # the actions
+    sights: Domain | Sequence[Hashable]  # the labels, by number
+    places: list[Place] = field(default_factory=list[Place])  # by number
+    rows: dict[tuple[int, int], Row] = field(default_factory=dict[tuple[int, int], Row])  # by place and action
+    layout: Mapping[int, Cell] | None = None  # where places without positions are drawn; laid out unless given
+    cursor: int = -1  # up to where the map's log of changes was read
 
     @classmethod
     def of(cls, map_: CognitiveMap) -> MapPicture:
         """The picture of a map as it is now."""
         picture = cls(map_.motions, map_.sights)
-        picture.update(map_, map_.places)
+        picture.update(map_)
         return picture
 
     @classmethod
     def recorded(cls, data: Mapping[str, Any]) -> MapPicture:
         """The picture of a recording before its first step."""
         motions = dict(zip(data["motions"]["names"], data["motions"]["displacements"], strict=True))
-        labels = next(iter(data["sensors"].values()), ())
-        return cls(Motions.of(motions), [decode(label) for label in labels])
-
-    def blank(self) -> MapPicture:
-        """A picture of the same map before anything was in it."""
-        return MapPicture(self.motions, self.sights)
+        return cls(Motions.of(motions), [decode(label) for label in data["sights"]])
 
     def apply(self, delta: Mapping[str, Any]) -> None:
         """Take up what changed: `size`, `places` and `ways`, each only where it is another."""
@@ -84,23 +67,21 @@ class MapPicture:
         for place, action, known, *ways in delta.get("ways", ()):
             self.rows[place, action] = known, tuple(zip(ways[::2], ways[1::2], strict=True))
 
-    def update(self, map_: CognitiveMap, touched: Iterable[int]) -> dict[str, Any]:
-        """Take up what has changed in a map, and return it as `apply` takes it, as JSON values.
-
-        Args:
-            map_: the map.
-            touched: the places that anything may have changed at.
-        """
-        numbers = np.fromiter(sorted(touched), dtype=np.int64)
-        entries, rows = _entries(map_, numbers), _rows(map_, numbers)
-        places = [[place, *entry] for place, entry in entries if self.places[place : place + 1] != [entry]]
+    def update(self, map_: CognitiveMap) -> dict[str, Any]:
+        """Take up what has changed in the map since the last call; returns it as `apply` takes it, as JSON values."""
+        changed, self.cursor = map_.changed_places(self.cursor)
+        touched = map_.places if changed is None else sorted(place for place in changed if place in map_.places)
+        numbers = np.array(touched, dtype=np.int64)
         ways = [
             [*key, known, *(part for to, q in likely for part in (to, round(q, DIGITS)))]
-            for key, (known, likely) in rows
+            for key, (known, likely) in _rows(map_, numbers)
             if _noticeable(self.rows.get(key), (known, likely))
         ]
-        size = {"size": len(map_.places)} if len(map_.places) != len(self.places) else {}
-        delta = {**({"places": places} if places else {}), **({"ways": ways} if ways else {}), **size}
+        entries = _entries(map_, numbers)
+        places = [[place, *entry] for place, entry in entries if self.places[place : place + 1] != [entry]]
+        delta: dict[str, Any] = {name: part for name, part in (("places", places), ("ways", ways)) if part}
+        if len(map_.places) != len(self.places):
+            delta["size"] = len(map_.places)
         self.apply(delta)
         return delta
 
@@ -110,10 +91,17 @@ class MapPicture:
         return sum(visited for _, visited, _, _ in self.places)
 
     @property
-    def cells(self) -> dict[int, Cell]:
-        """Row and column of each place that has a position; all are laid out where actions have no displacements."""
-        if self.motions.displacements:
+    def located(self) -> bool:
+        """Whether any place has a position."""
+        return any(entry[0] is not None for entry in self.places)
+
+    @property
+    def cells(self) -> Mapping[int, Cell]:
+        """Row and column of each place that has a position; all are laid out where none has one."""
+        if self.located:
             return {place: flat(entry[0]) for place, entry in enumerate(self.places) if entry[0] is not None}
+        if self.layout is not None:
+            return {place: self.layout[place] for place in range(len(self.places)) if place in self.layout}
         pairs = [(place, to) for (place, _), (_, likely) in self.rows.items() for to, q in likely if q >= LEAST]
         return {place: (0.0 - y, x) for place, (x, y) in spread(range(len(self.places)), pairs).items()}
 
@@ -131,7 +119,7 @@ class MapPicture:
             for to, q in likely if place in cells and action != self.motions.stay else ():
                 if q >= LEAST and to != place and to in cells:
                     links.append((place, to, q))
-                elif q >= LEAST and to == place and self.motions.displacements and (known or q > 0.5):
+                elif q >= LEAST and to == place and self.located and (known or q > 0.5):
                     walls.append((*_bar(cells[place], flat(self.motions.displacements[action])), q))
         return Picture(cells, {place: self.sights[sight] for place, sight in seen}, links, walls)
 
@@ -155,26 +143,6 @@ def _bar(cell: Cell, way: Cell) -> tuple[Cell, Cell]:
     down, right = way
     row, column = cell[0] + 0.42 * down, cell[1] + 0.42 * right
     return (row - 0.2 * right, column - 0.2 * down), (row + 0.2 * right, column + 0.2 * down)
-
-
-class MapWatch:
-    """Tells what has changed in a map from call to call.
-
-    Attributes:
-        picture: the map at the last call.
-    """
-
-    def __init__(self, map_: CognitiveMap) -> None:
-        self.picture = MapPicture(map_.motions, map_.sights)
-        self._map, self._cursor = map_, -1
-
-    def delta(self) -> dict[str, Any]:
-        """What has changed since the last call, as `MapPicture.apply` takes it."""
-        touched, self._cursor = self._map.changed_places(self._cursor)
-        places = self._map.places
-        return self.picture.update(
-            self._map, places if touched is None else (place for place in touched if place in places)
-        )
 
 
 def _entries(map_: CognitiveMap, places: Ints) -> list[tuple[int, Place]]:

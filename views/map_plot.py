@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 from ..model import CogmapError, CognitiveMap
 from ..worlds import Chart
-from .axes import Cell, as_grid, axes_or_new, flat
+from .axes import Cell, Where, as_grid, axes_or_new, flat
 from .map_picture import MapPicture
 from .picture import Picture, draw_picture
 from .theme import theme_of
@@ -17,14 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def plot_map(
-    map_: CognitiveMap,
-    *,
-    chart: Chart | None = None,
-    start: Any = (0, 0),
-    title: str | None = None,
-    ax: Axes | None = None,
-) -> Axes:
+def plot_map(map_: CognitiveMap, *, chart: Chart | None = None, start: Any = (0, 0), **where: Unpack[Where]) -> Axes:
     """Places at their positions, or laid out where there are none, and the transitions between them.
 
     Visited places are filled with the colour of their most probable sight, imagined ones are hollow and dashed.
@@ -32,17 +25,10 @@ def plot_map(
     beside a place is a wall: P(blocked); a door of which nothing is known has none. Places without a position are
     counted under the plot.
 
-    Args:
-        map_: the map, in one or two dimensions.
-        chart: the true map, drawn faintly beneath: `world.chart`, or a maze.
-        start: the place that the agent takes as its origin: of the chart, or row and column.
-        title: above the plot.
-        ax: axes to draw on; new ones unless given.
-
     Raises:
         CogmapError: positions of more than two dimensions, or `start` is no place of the chart.
     """
-    ax = axes_or_new(ax, title)
+    ax = axes_or_new(**where)
     draw_map(ax, MapPicture.of(map_), *underlay(chart, start))
     return ax
 

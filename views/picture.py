@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .axes import Cell, cell_points, write_in
-from .colours import RGB, ink_on, mixed, sight_colour
-from .theme import Theme, theme_of
+from .theme import Theme, ink_on, mixed, sight_colour, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,21 +25,13 @@ FAINT = 0.3  # how much of a colour is left beneath another picture
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """Places and ways.
+    """Places and ways."""
 
-    Attributes:
-        cells: row and column of each place; those side by side are about a unit apart.
-        labels: of the places that were seen; others are drawn as imagined.
-        links: a place, the next one, and the probability of the way there.
-        walls: the two ends of each wall, as cells, and its probability.
-        rooms: whether the places are rooms on a grid, to be drawn as squares.
-    """
-
-    cells: Mapping[Node, Cell]
-    labels: Mapping[Node, Any]
-    links: Sequence[tuple[Node, Node, float]]
-    walls: Sequence[tuple[Cell, Cell, float]]
-    rooms: bool = False
+    cells: Mapping[Node, Cell]  # row and column of each place; those side by side are about a unit apart
+    labels: Mapping[Node, Any]  # of the places that were seen; others are drawn as imagined
+    links: Sequence[tuple[Node, Node, float]]  # a place, the next one, and the probability of the way there
+    walls: Sequence[tuple[Cell, Cell, float]]  # the two ends of each wall, and its probability
+    rooms: bool = False  # whether the places are rooms on a grid, to be drawn as squares
 
     @property
     def lines(self) -> dict[tuple[Node, Node], Floats]:
@@ -82,57 +73,45 @@ def draw_picture(
         closed: places that are hatched.
     """
     theme, points = theme_of(ax), cell_points(ax)
-    ink = Theme(theme.shade(FAINT), theme.paper) if faint else theme
-    for node, cell in picture.cells.items() if picture.rooms else ():
-        _draw_room(ax, cell, picture.labels[node], faint=faint, closed=node in closed)
+    edge, hollow = theme.shade(FAINT if faint else 1.0), {"edgecolor": theme.shade(0.75), "linestyle": (0, (2, 1.5))}
+    for node, cell in picture.cells.items():
+        look: dict[str, Any] = {"facecolor": theme.paper, **hollow}
+        if node in closed:
+            look = {"facecolor": theme.paper, "edgecolor": theme.shade(0.7), "hatch": "////"}
+        elif node in picture.labels:
+            colour = sight_colour(picture.labels[node])
+            look = {"facecolor": mixed(colour, theme.paper, FAINT) if faint else colour, "edgecolor": edge}
+        text = "" if faint or node in closed else str(picture.labels.get(node, ""))
+        (_draw_room if picture.rooms else _draw_place)(ax, cell, text, look)
+    ink = Theme(edge, theme.paper)
     lines = {} if picture.rooms else picture.lines
     halves = [(_half(lines[a, b]), p) for a, b, p in picture.links if lines]
     _draw_lines(ax, halves, ink, widest=min(thick * points, 7.0), cap="butt")
     walls = [(np.array(ends), p) for *ends, p in picture.walls]
     _draw_lines(ax, walls, ink, widest=min(0.06 * points, 4.0), cap="round")
-    for node, cell in () if picture.rooms else picture.cells.items():
-        seen = node in picture.labels
-        _draw_place(ax, cell, picture.labels.get(node), seen=seen, faint=faint, closed=node in closed)
 
 
-def _draw_room(ax: Axes, cell: Cell, label: Any, *, faint: bool, closed: bool) -> None:
+def _draw_room(ax: Axes, cell: Cell, text: str, look: dict[str, Any]) -> None:
     from matplotlib.patches import Rectangle
     from matplotlib.patheffects import withStroke
 
-    (row, column), theme = cell, theme_of(ax)
-    floor = _floor(label, theme, faint)
-    look: dict[str, Any] = _hatched(theme) if closed else {"facecolor": floor, "edgecolor": theme.paper}
-    edge = min(1.5, cell_points(ax) / 20)
-    ax.add_artist(Rectangle((column - 0.5, row - 0.5), 1, 1, linewidth=edge, **look))
-    if not faint and not closed:
+    (row, column), floor, wide = cell, look["facecolor"], min(1.5, cell_points(ax) / 20)
+    edge: dict[str, Any] = {} if "hatch" in look else {"edgecolor": theme_of(ax).paper}
+    ax.add_artist(Rectangle((column - 0.5, row - 0.5), 1, 1, **(look | edge), linewidth=wide))
+    if text:
         style: dict[str, Any] = {"color": ink_on(floor), "ha": "left", "va": "top", "zorder": 5}
-        text = write_in(ax, column - 0.44, row - 0.44, str(label), box=(0.8, 0.27), **style)
-        text.set_path_effects([withStroke(linewidth=2, foreground=floor)])
+        written = write_in(ax, column - 0.44, row - 0.44, text, box=(0.8, 0.27), **style)
+        written.set_path_effects([withStroke(linewidth=2, foreground=floor)])
 
 
-def _draw_place(ax: Axes, cell: Cell, label: Any, *, seen: bool, faint: bool, closed: bool) -> None:
+def _draw_place(ax: Axes, cell: Cell, text: str, look: dict[str, Any]) -> None:
     from matplotlib.patches import Circle
 
-    (row, column), theme = cell, theme_of(ax)
-    floor = _floor(label, theme, faint)
-    look: dict[str, Any] = {"facecolor": floor, "edgecolor": theme.shade(FAINT) if faint else theme.ink}
-    if closed or not seen:
-        hollow = {"facecolor": theme.paper, "edgecolor": theme.shade(0.75), "linestyle": (0, (2, 1.5))}
-        look = _hatched(theme) if closed else hollow
-    edge = min(1.4, cell_points(ax) / 18)
-    ax.add_artist(Circle((column, row), RADIUS, linewidth=edge, zorder=2, **look))
-    if seen and not faint and not closed:
+    (row, column), wide = cell, min(1.4, cell_points(ax) / 18)
+    ax.add_artist(Circle((column, row), RADIUS, linewidth=wide, zorder=2, **look))
+    if text:
         box = (1.6 * RADIUS, 1.2 * RADIUS)
-        write_in(ax, column, row, str(label), box=box, color=ink_on(floor), zorder=3)
-
-
-def _floor(label: Any, theme: Theme, faint: bool) -> RGB:
-    colour = sight_colour(label)
-    return mixed(colour, theme.paper, FAINT) if faint else colour
-
-
-def _hatched(theme: Theme) -> dict[str, Any]:
-    return {"facecolor": theme.paper, "edgecolor": theme.shade(0.7), "hatch": "////"}
+        write_in(ax, column, row, text, box=box, color=ink_on(look["facecolor"]), zorder=3)
 
 
 def _half(line: Floats) -> Floats:

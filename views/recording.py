@@ -8,31 +8,23 @@ from os import PathLike
 from typing import Any
 
 from ..agent import Agent, StepRecord
-from ..model import CogmapError, decode, encode
+from ..model import CogmapError, decode, encode, plain
 from ..worlds import Chart, Place
 from . import recording_file
-from .map_picture import KNOWN, MapPicture, MapWatch
+from .map_picture import KNOWN, MapPicture
 from .recording_check import check
-from .recording_plan import plan_frame
-from .recording_upgrade import upgraded
-from .recording_window import WindowWatch
-from .recording_world import Places
-from .terms import term_json
+from .recording_frames import NUMBERS, WindowWatch, plan_frame, term_json, world_json
+from .world_plot import as_place, world_picture
 
 DIGITS = 4
-MOST_PLACES = 8
-"""Places of the belief that are kept, the most probable ones."""
+MOST_PLACES = 8  # places of the belief that are kept, the most probable ones
 
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A recorded walk.
+    """A recorded walk."""
 
-    Attributes:
-        data: the content of the file, as JSON values.
-    """
-
-    data: dict[str, Any]
+    data: dict[str, Any]  # the content of the file, as JSON values
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Recording:
@@ -43,7 +35,7 @@ class Recording:
         """
         data = recording_file.read(path)
         try:
-            data = upgraded(data)
+            data = recording_file.upgraded(data)
             check(data)
         except (AttributeError, LookupError, TypeError, ValueError) as error:
             why = f"{type(error).__name__}: {error}"
@@ -64,19 +56,9 @@ class Recording:
         return self.data["frames"]
 
     @property
-    def actions(self) -> list[str]:
-        """Names of the actions."""
-        return self.data["motions"]["names"]
-
-    @property
     def sights(self) -> list[Hashable]:
-        """Labels of the first sensor, by number."""
-        return next(iter(self.labels.values()), [])
-
-    @property
-    def labels(self) -> dict[str, list[Hashable]]:
-        """Labels of every sensor, by its name and by number."""
-        return {name: [decode(label) for label in labels] for name, labels in self.data["sensors"].items()}
+        """Labels of what places show, by number."""
+        return [decode(label) for label in self.data["sights"]]
 
     @property
     def places(self) -> list[Hashable]:
@@ -104,23 +86,20 @@ class Recorder:
     """
 
     def __init__(self, chart: Chart | None = None, *, title: str = "", goals: Iterable[Hashable] = ()) -> None:
-        self._places = Places(chart)
+        self._chart, self._world = chart, None if chart is None else world_json(world_picture(chart))
+        self._places: dict[Place, int] = {} if chart is None else {place: n for n, place in enumerate(chart.places)}
         self._title = str(title)
         self._goals = [encode(label) for label in goals]
         self._agent: Agent | None = None
         self._frames: list[dict[str, Any]] = []
         self._origin: int | None = None
+        self._window = WindowWatch()
 
     def __len__(self) -> int:
         return len(self._frames)
 
     def add(
-        self,
-        agent: Agent,
-        *,
-        place: Place | None = None,
-        closed_rooms: Iterable[Place] = (),
-        closed_doors: Iterable[tuple[Place, Place]] = (),
+        self, agent: Agent, *, place: Place = None, closed_rooms: Iterable[Any] = (), closed_doors: Iterable[Any] = ()
     ) -> None:
         """Record the step that the agent has just made, before its action is carried out.
 
@@ -135,22 +114,25 @@ class Recorder:
                 not have, or a label that JSON has not.
         """
         record = self._fresh(agent)
-        encode(record.sight)  # refuses now what could not be written later
-        frame = _senses(agent, record) | _belief(record)
+        frame = _frame(agent, record)
         if place is not None:
-            frame["at"] = self._places.number(place)
+            frame["at"] = self._number(place)
             if record.step == 0:  # the agent calls the place where it wakes the origin
                 self._origin = frame["at"]
-        if rooms := self._places.numbers(closed_rooms):
+        if rooms := sorted(map(self._number, closed_rooms)):
             frame["closed_rooms"] = rooms
-        if doors := sorted(self._places.numbers(door) for door in closed_doors):
+        if doors := sorted(sorted(map(self._number, door)) for door in closed_doors):
             frame["closed_doors"] = doors
-        frame |= {"map": self._map.delta(), "plan": plan_frame(agent.plan), "window": self._window.delta(agent.graph)}
+        frame |= {
+            "map": self._map.update(agent.map),
+            "plan": plan_frame(agent.plan),
+            "window": self._window.delta(agent.graph),
+        }
         self._frames.append(frame)
 
     def _fresh(self, agent: Agent) -> StepRecord:
         if self._agent is None:
-            self._agent, self._map, self._window = agent, MapWatch(agent.map), WindowWatch()
+            self._agent, self._map = agent, MapPicture(agent.map.motions, agent.map.sights)
         if agent is not self._agent:
             raise CogmapError("recorder: this is another agent; use a recorder of its own for each")
         if not agent.trace:
@@ -158,6 +140,12 @@ class Recorder:
         if self._frames and agent.trace[-1].step <= self._frames[-1]["step"]:
             raise CogmapError(f"recorder: step {agent.trace[-1].step} is recorded already; call add once a step")
         return agent.trace[-1]
+
+    def _number(self, place: Place) -> int:
+        place = as_place(place)
+        if self._chart is not None and place not in self._places:
+            raise CogmapError(f"recorder: {place!r} is no place of {self._chart.name!r}; see chart.places")
+        return self._places.setdefault(place, len(self._places))
 
     def recording(self) -> Recording:
         """All that was recorded so far.
@@ -167,52 +155,42 @@ class Recorder:
         """
         if self._agent is None or not self._frames:
             raise CogmapError("recorder: nothing was recorded; call add after agent.step")
-        motions = self._agent.map.motions
-        return Recording(
-            {
-                "format": recording_file.FORMAT,
-                "schema": recording_file.SCHEMA,
-                "title": self._title,
-                "motions": {
-                    "names": list(motions.names),
-                    "displacements": [list(vector) for vector in motions.displacements],
-                    "stay": motions.stay,
-                },
-                "settings": self._agent.settings.to_dict(),
-                "terms": [term_json(term) for term in self._agent.plan.expected_free_energy.terms],
-                "known": list(KNOWN),
-                "sensors": {"sight": [encode(label) for label in self._agent.map.sights]},
-                "places": self._places.to_json(),
-                "world": self._places.world,
-                "origin": self._origin,
-                "goals": self._goals,
-                "frames": list(self._frames),
-            }
-        )
+        map_, motions = self._agent.map, self._agent.map.motions
+        vectors = [list(vector) for vector in motions.displacements]
+        data = {
+            "format": recording_file.FORMAT,
+            "schema": recording_file.SCHEMA,
+            "title": self._title,
+            "motions": {"names": list(motions.names), "displacements": vectors, "stay": motions.stay},
+            "settings": self._agent.settings.to_dict(),
+            "terms": [term_json(term) for term in self._agent.plan.expected_free_energy.terms],
+            "known": list(KNOWN),
+            "sights": [encode(label) for label in map_.sights],
+            "places": [encode(plain(place)) for place in self._places],
+            "world": self._world,
+            "origin": self._origin,
+            "goals": self._goals,
+            "frames": list(self._frames),
+        }
+        return Recording(data)
 
     def save(self, path: str | PathLike[str]) -> None:
         """`recording().save(path)`."""
         self.recording().save(path)
 
 
-def _senses(agent: Agent, record: StepRecord) -> dict[str, Any]:
+def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
+    """What was sensed, grown and believed."""
+    grown = [event for event in record.grown if event.kind != "time"]
+    places = [[place, round(q, DIGITS)] for place, q in list(record.places.items())[:MOST_PLACES]]
     return {
         "step": record.step,
-        "seen": {"sight": agent.map.sights.index(record.sight)},
+        "seen": {sensor: encode(label) for sensor, label in record.sensed.items()},
         "open": [int(is_open) for is_open in record.open],
-        "grown": [
-            [event.kind, event.index, event.source, event.action] for event in record.grown if event.kind != "time"
-        ],
+        "grown": [[event.kind, event.index, event.source, event.action] for event in grown],
         "retracted": record.retracted,
-    }
-
-
-def _belief(record: StepRecord) -> dict[str, Any]:
-    places = [[place, round(q, DIGITS)] for place, q in list(record.places.items())[:MOST_PLACES]]
-    numbers = ("certainty", "doubt", "moved", "free_energy", "complexity", "accuracy", "evidence")
-    return {
         "belief": places,
         "rest": round(max(0.0, 1.0 - sum(q for _, q in places)), DIGITS),
         "certain": record.certain,
-        **{name: round(float(getattr(record, name)), DIGITS) for name in numbers},
+        **{name: round(float(getattr(record, name)), DIGITS) for name in NUMBERS},
     }

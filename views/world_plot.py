@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
 from ..model import CogmapError
 from ..worlds import Chart, Place
-from .axes import Cell, as_grid, axes_or_new, cell_points
+from .axes import Cell, Where, as_grid, axes_or_new, cell_points
 from .layout import spread
 from .picture import Floats, Picture, draw_picture
 
@@ -21,12 +21,7 @@ LANE = 0.09  # to the right of the middle, so that there and back are two lines
 
 
 def plot_world(
-    chart: Chart,
-    *,
-    path: Sequence[Place] = (),
-    closed: Iterable[Place] = (),
-    title: str | None = None,
-    ax: Axes | None = None,
+    chart: Chart, *, path: Sequence[Place] = (), closed: Iterable[Place] = (), **where: Unpack[Where]
 ) -> Axes:
     """Places in the colours of their labels, and a path from black (first step) to white (last).
 
@@ -38,8 +33,6 @@ def plot_world(
         path: the places walked through, in order; moves keep to the right, and where no way leads from one place to
             the next the line is dashed.
         closed: places that are closed, to be hatched.
-        title: above the plot.
-        ax: axes to draw on; new ones unless given.
 
     Raises:
         CogmapError: a path through, or a closed place that is, no place of the chart.
@@ -48,7 +41,7 @@ def plot_world(
     path, shut = [as_place(place) for place in path], {as_place(place) for place in closed}
     if strange := [place for place in (*path, *shut) if place not in picture.cells]:
         raise CogmapError(f"plot_world: {strange[0]!r} is no place of {chart.name!r}; see chart.places")
-    ax = axes_or_new(ax, title)
+    ax = axes_or_new(**where)
     as_grid(ax, picture.cells.values())
     draw_picture(ax, picture, thick=0.04, closed=shut)
     if path:

@@ -2,7 +2,6 @@
 const R = JSON.parse($("recording").textContent);
 const F = R.frames;
 const ACTIONS = R.motions.names;
-const SIGHTS = Object.values(R.sensors)[0] || []; // how the labels of the first sensor look
 const ARROWS = ACTIONS.map((name, action) => arrow(R.motions.displacements[action], name));
 
 function arrow(vector, name) {
@@ -31,7 +30,7 @@ function change(delta) {
   for (const [place, position, visited, sight, p] of delta.places || []) {
     const since = map.places[place] ? map.places[place].since : map.at;
     const cell = R.layout ? R.layout[place] : position && flat(position);
-    map.places[place] = { position: cell, exact: position, visited, look: sight == null ? null : SIGHTS[sight], p, since };
+    map.places[place] = { position: cell, exact: position, visited, look: sight == null ? null : R.sights[sight], p, since };
   }
   for (const [place, action, known, ...ways] of delta.ways || []) {
     const pairs = [];

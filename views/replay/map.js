@@ -22,7 +22,7 @@ function waysAndWalls() {
   for (const { place, action, known, pairs } of map.ways.values()) {
     const here = map.places[place].position;
     if (!here || action === R.motions.stay) continue;
-    const [x, y] = centre(here), vector = R.motions.displacements[action], [down, right] = vector ? flat(vector) : [0, 0];
+    const [x, y] = centre(here), vector = R.layout ? null : R.motions.displacements[action], [down, right] = vector ? flat(vector) : [0, 0];
     for (const [there, p] of pairs) {
       if (p < LEAST) continue;
       if (there === place && vector) {
