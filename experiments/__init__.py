@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .cells import Cell, Row, run_cell, run_cells
-    from .executors import workers
     from .exploring import (
         ExploreRun,
         Walk,
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     from .navigating import NavigateRun, navigate, navigate_many, navigate_result
     from .output import check_outputs, picture_of, unused, write_json, write_picture
     from .parts import AGENTS, CSCG, Maker, Parts
-    from .pool import WorkerLostError, completed, map_seeds, map_tasks
+    from .pool import WorkerLostError, completed, map_seeds, map_tasks, workers
     from .records import Record, mean, std
     from .running import Moment, Run, Walker, run
     from .session import Session, default_steps, draw_start, explored, set_out
@@ -92,10 +91,7 @@ __all__ = [
     "write_picture",
 ]
 
-_MODULES = (
-    "text pool executors running output ledger records parts knowledge session goals exploring kidnapping "
-    "navigating cells"
-)
+_MODULES = "text pool running output ledger records parts knowledge session goals exploring kidnapping navigating cells"
 
 
 def __getattr__(name: str) -> Any:

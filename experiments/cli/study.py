@@ -76,7 +76,7 @@ def study_command(
 
 
 def _one(study: Study, folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
-    from ..executors import workers
+    from ..pool import workers
     from ..studies.everything import run_study
 
     with workers(jobs=jobs, dask=dask) as executor, _kept(study, folder, asked) as ledger:
@@ -85,7 +85,7 @@ def _one(study: Study, folder: Path, asked: Asked, jobs: int, dask: str | None) 
 
 
 def _all(folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
-    from ..executors import workers
+    from ..pool import workers
     from ..studies.everything import try_study, write_index
     from ..studies.frame import STUDIES
 
