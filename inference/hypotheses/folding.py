@@ -1,0 +1,236 @@
+"""Folding: a hypothesis in which look-alikes are one place, at its weight plus what that explains better."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import lgamma, log
+from typing import NamedTuple
+
+from ...model.rates import ELSEWHERE, NEW, RATE_PRIORS, UNDONE, crp_evidence, log_beta_evidence
+from .extending import shared
+from .hypothesis import Hypothesis
+from .records import NOWHERE, Place, Way
+from .uniting import Contradiction, Union
+
+INJECTIVE = log(0.05)
+"""Log prior odds of one more pair of places that one action leads from into the same place."""
+
+FACTOR = 0.6
+"""Share of the places, on average, among which a loop that closes had to choose while the map grew."""
+
+
+class Links(NamedTuple):
+    """Ways between places: how many, how many of them off the chart, that do not lead back, that meet."""
+
+    count: int
+    off: int
+    crooked: int
+    meeting: int
+
+
+def folds(h: Hypothesis, *, floor: float, most: int = 12) -> Iterator[Hypothesis]:
+    """The hypothesis with the place where the agent is united with each place that looks like it.
+
+    Args:
+        h: the hypothesis; it is not changed.
+        floor: log weight below which a result is not wanted.
+        most: number of look-alikes that are tried.
+    """
+    here = h.places[h.here]
+    alike = h.shown.get((0, here.label())) or ()
+    for other in [number for number in alike if number != h.here][-most:]:
+        for period in (False, True) if _may_close(h, here, h.places[other]) else (False,):
+            united = union(h, h.here, other, period=period, floor=floor)
+            if united is not None:
+                yield united
+
+
+def _may_close(h: Hypothesis, one: Place, other: Place) -> bool:
+    return h.scheme.displacements is not None and one.frame == other.frame
+
+
+def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) -> Hypothesis | None:
+    """The hypothesis in which two places are one; None where its log weight is below `floor`."""
+    united = Union(h, floor=floor - h.weight - 12.0)
+    try:
+        united.unite(one, other, period=period)
+    except Contradiction:
+        return None
+    gain, links = scored(united)
+    if h.weight + gain < floor:
+        return None
+    return _built(united, h.weight + gain, links)
+
+
+def scored(united: Union) -> tuple[float, Links]:
+    """log P(united) - log P(apart), readings and structure; and the difference in links."""
+    h = united.h
+    before, after = _links(united, apart=True), _links(united, apart=False)
+    more = Links(*(b - a for a, b in zip(before, after, strict=True)))
+    gain = united.gain + _seating_gain(united)
+    gain += _structure_gain(united, more)
+    gain += _gain(h, UNDONE, 0, more.crooked) + more.meeting * INJECTIVE
+    if united.joined > 1:
+        gain -= log(h.size + 1.0)
+    return gain, more
+
+
+def _structure_gain(united: Union, more: Links) -> float:
+    h = united.h
+    fewer = len(set(united.gone()))
+    if h.scheme.displacements is not None:
+        off = more.off + (united.periods is not None)
+        gain = _gain(h, ELSEWHERE, off, more.count - more.off)
+        return gain - off * log(h.size - fewer + 1.0)
+    closed = max(h.links - h.size + 1, 0)
+    closed_after = max(h.links + more.count - h.size + fewer + 1, 0)
+    gain = _gain(h, NEW, -fewer, closed_after - max(h.counts.no[NEW], 0.0))
+    return (
+        gain - closed_after * log(max(FACTOR * (h.size - fewer), 1.0)) + closed * log(max(FACTOR * h.size, 1.0))
+    )
+
+
+def _gain(h: Hypothesis, rate: int, yes: float, no: float) -> float:
+    """What more counts of a rate do to its evidence."""
+    prior, n_yes, n_no = RATE_PRIORS[rate], max(h.counts.yes[rate], 0.0), max(h.counts.no[rate], 0.0)
+    after = log_beta_evidence(prior.yes, prior.no, max(n_yes + yes, 0.0), max(n_no + no, 0.0))
+    return after - log_beta_evidence(prior.yes, prior.no, n_yes, n_no)
+
+
+def _seating_gain(united: Union) -> float:
+    """What it does to the Chinese restaurant process that fewer places show what they show."""
+    h, gain = united.h, 0.0
+    members = united.members()
+    for sensor in range(h.scheme.sensors):
+        tables: dict[int, int] = {}
+        for number in members:
+            label = h.places[number].label(sensor)
+            tables[label] = tables.get(label, 0) - 1
+        for place in united.classes.values():
+            label = place.label(sensor)
+            tables[label] = tables.get(label, 0) + 1
+        kinds = h.kinds[sensor]
+        after = kinds
+        for label, more in tables.items():
+            before = len(h.shown.get((sensor, label)) or ())
+            gain += lgamma(max(before + more, 1)) - lgamma(max(before, 1))
+            after += (before + more > 0) - (before > 0)
+        gain += crp_evidence(after, h.size - len(set(united.gone()))) - crp_evidence(kinds, h.size)
+    return gain
+
+
+def _links(united: Union, *, apart: bool) -> Links:
+    """The links of the places concerned, each once, before and after."""
+    h = united.h
+    find = (lambda number: number) if apart else united.find
+    view = h.places.__getitem__ if apart else united.view
+    inverse = h.scheme.inverse
+    keys: dict[tuple[int, int], int] = {}
+    meeting = 0
+    for number in united.members() if apart else united.classes:
+        place = view(number)
+        for index, way in enumerate(place.ways):
+            if way.to != NOWHERE:
+                keys[number, index] = find(way.to)
+        sources = {(find(source), index) for source, index in place.into}
+        for source, index in sources:
+            keys[source, index] = number
+        meeting += len(sources) - len({index for _, index in sources})
+    count = off = crooked = 0
+    for (number, index), to in keys.items():
+        back = NOWHERE if inverse is None else view(to).ways[inverse[index]].to
+        mutual = back != NOWHERE and find(back) == number
+        if mutual and inverse is not None and (to, inverse[index]) in keys and (to, inverse[index]) < (number, index):
+            continue
+        count += 1
+        crooked += back != NOWHERE and not mutual
+        off += _off(united, number, index, to, apart=apart)
+    return Links(count, off, crooked, meeting if inverse is None else 0)
+
+
+def _off(united: Union, number: int, index: int, to: int, *, apart: bool) -> bool:
+    """Whether a link leads where the chart does not say."""
+    h = united.h
+    if h.scheme.displacements is None:
+        return False
+    if apart:
+        place, there = h.places[number], h.places[to]
+        return h.beyond(place, index) != (there.frame, there.position)
+    frame, position = united.key(number)
+    ahead = tuple(x + d for x, d in zip(position, h.scheme.displacements[index], strict=True))
+    key = h.canonical(frame, ahead)
+    if united.periods is not None and united.periods[0] == frame:
+        from .periods import reduced
+
+        key = frame, reduced(ahead, united.periods[1])
+    return key != united.key(to)
+
+
+def _built(united: Union, weight: float, more: Links) -> Hypothesis:
+    h = united.h.fork()
+    h.chances = united.h.chances
+    h.weight, h.here = weight, united.find(h.here)
+    h.links += more.count
+    touched = _neighbours(united)
+    records = {number: _resolved(united, number) for number in touched if united.find(number) == number}
+    for number in set(united.gone()):
+        h.remove(number)
+    _chart(united, h)
+    for number, place in records.items():
+        frame, position = united.charted.get(number, (place.frame, place.position))
+        h.put(number, Place(place.sights, place.ways, frame, position, place.recent, place.into, place.share))
+    for number in records:
+        h.put(number, shared(h, number, h.places[number]))
+    _count(united, h, more)
+    return h
+
+
+def _count(united: Union, h: Hypothesis, more: Links) -> None:
+    counts, fewer = h.counts, len(set(united.gone()))
+    counts.no[UNDONE] = max(counts.no[UNDONE] + more.crooked, 0.0)
+    if h.scheme.displacements is None:
+        counts.yes[NEW] = max(counts.yes[NEW] - fewer, 0.0)
+        counts.no[NEW] = float(max(h.links - h.size + 1, 0))
+        return
+    off = more.off + (united.periods is not None)
+    counts.yes[ELSEWHERE] = max(counts.yes[ELSEWHERE] + off, 0.0)
+    counts.no[ELSEWHERE] = max(counts.no[ELSEWHERE] + more.count - more.off, 0.0)
+
+
+def _chart(united: Union, h: Hypothesis) -> None:
+    """Lay places out anew whose chart has changed."""
+    if united.periods is not None:
+        h.periods[united.periods[0]] = united.periods[1]
+    moved = [number for number in united.charted if h.places.get(number) is not None]
+    for number in moved:
+        place = h.places[number]
+        if h.at.get((place.frame, place.position)) == number:
+            del h.at[place.frame, place.position]
+    for number in moved:
+        place = h.places[number]
+        frame, position = united.charted[number]
+        h.at[frame, position] = number
+        h.put(number, Place(place.sights, place.ways, frame, position, place.recent, place.into, place.share))
+
+
+def _neighbours(united: Union) -> set[int]:
+    """The places that are united, and those that are linked with them."""
+    touched = united.members()
+    for number in list(touched):
+        place = united.h.places[number]
+        touched |= {way.to for way in place.ways if way.to != NOWHERE} | {source for source, _ in place.into}
+    return touched
+
+
+def _resolved(united: Union, number: int) -> Place:
+    """The record of a place with every number of a united place replaced by the first one's."""
+    place, find = united.view(number), united.find
+    ways = [Way(*way[:4], find(way.to)) if way.to != NOWHERE else way for way in place.ways]
+    into = frozenset((find(source), index) for source, index in place.into)
+    inverse = united.h.scheme.inverse
+    if inverse is not None:
+        for source, index in into:
+            back = inverse[index]
+            if ways[back].to == NOWHERE:
+                ways[back] = Way(*ways[back][:4], source)
+    return Place(place.sights, tuple(ways), place.frame, place.position, place.recent, into, place.share)

@@ -1,0 +1,203 @@
+"""Two places taken for one, and all that follows from it: state merging, weighed by the evidence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import exp, log
+
+from .evidence import probability, way_odds
+from .hypothesis import Hypothesis, Key
+from .periods import Periods, reduced, with_period
+from .records import NOWHERE, RECENT, Place, SightCounts, Way
+
+
+class Contradiction(Exception):
+    """The places cannot be one, as far as anything is known here."""
+
+
+class Union:
+    """Classes of places that are one, and how much more probable that makes what was read.
+
+    A place that leads by one action to two places makes these one as well, and so do two places at one position of a
+    chart.
+
+    Attributes:
+        h: the hypothesis; it is not changed.
+        gain: log P(readings | united) - log P(readings | apart), without what `scoring` adds.
+        classes: the records of united places, by their first one.
+        charted: (frame, position) of places whose chart has changed.
+        periods: of the chart that closes on itself by this, and its frame.
+    """
+
+    def __init__(self, h: Hypothesis, *, floor: float) -> None:
+        self.h, self.gain, self._floor = h, 0.0, floor
+        self.classes: dict[int, Place] = {}
+        self.charted: dict[int, Key] = {}
+        self.periods: tuple[int, Periods] | None = None
+        self.joined = 0
+        self._first: dict[int, int] = {}
+        self._queue: list[tuple[int, int]] = []
+
+    def find(self, number: int) -> int:
+        """The place that stands for the class of one."""
+        first = self._first
+        while number in first:
+            number = first[number]
+        return number
+
+    def view(self, number: int) -> Place:
+        """The record of a place as it is when united."""
+        number = self.find(number)
+        return self.classes.get(number) or self.h.places[number]
+
+    def members(self) -> set[int]:
+        """Every place that is one with another."""
+        return {*self.classes, *self._first}
+
+    def gone(self) -> Iterable[int]:
+        """The places that others stand for."""
+        return self._first
+
+    def key(self, number: int) -> Key:
+        """Frame and position of a place, with the charts as they are when united."""
+        number = self.find(number)
+        place = self.h.places[number]
+        return self.charted.get(number) or (place.frame, place.position)
+
+    def unite(self, one: int, other: int, *, period: bool = False) -> None:
+        """Take two places for one.
+
+        Args:
+            one, other: the places.
+            period: if they are in one chart, it closes on itself; otherwise only the ways that lead there do.
+
+        Raises:
+            Contradiction: the readings become too improbable.
+        """
+        if self.h.scheme.displacements is not None:
+            self._chart(one, other, period=period)
+        self._queue.append((one, other))
+        while self._queue:
+            a, b = (self.find(number) for number in self._queue.pop())
+            if a != b:
+                self._merge(min(a, b), max(a, b))
+                if self.gain < self._floor:
+                    raise Contradiction
+
+    def _merge(self, first: int, second: int) -> None:
+        a, b = self.view(first), self.view(second)
+        for sensor, (mine, its) in enumerate(zip(a.sights, b.sights, strict=True)):
+            self.gain += sights_gain(self.h, sensor, mine, its)
+        most = self.h.chances.most
+        ways: list[Way] = []
+        for index, (mine, its) in enumerate(zip(a.ways, b.ways, strict=True)):
+            self.gain += self._ways_gain(first, a, second, b, index)
+            ways.append(self._one_way(mine, its, most))
+        recent = tuple(sorted({*a.recent, *b.recent}))[-RECENT:]
+        sights = tuple(_sum(mine, its) for mine, its in zip(a.sights, b.sights, strict=True))
+        self._first[second] = first
+        self.classes.pop(second, None)
+        self.classes[first] = Place(sights, tuple(ways), a.frame, a.position, recent, a.into | b.into, a.share)
+
+    def _one_way(self, mine: Way, its: Way, most: float) -> Way:
+        to = mine.to
+        if to == NOWHERE:
+            to = its.to
+        elif its.to not in (NOWHERE, to):
+            self._queue.append((mine.to, its.to))
+        net = min(max(mine.net + its.net, -most), most)
+        return Way(net, mine.open + its.open, mine.blocked + its.blocked, mine.walks + its.walks, to)
+
+    def _ways_gain(self, first: int, a: Place, second: int, b: Place, index: int) -> float:
+        """log Σ_s P(s | a) P(s | b) / P(s), s being open or blocked; half where both sides of the door are united."""
+        mine, its = a.ways[index], b.ways[index]
+        if not (mine.net or mine.to != NOWHERE) or not (its.net or its.to != NOWHERE):
+            return 0.0
+        chances = self.h.chances
+        p, q = probability(self._odds(first, a, index)), probability(self._odds(second, b, index))
+        gain = log(p * q / chances.open + (1.0 - p) * (1.0 - q) / (1.0 - chances.open))
+        both = mine.to != NOWHERE and its.to != NOWHERE and self.h.scheme.inverse is not None
+        return 0.5 * gain if both and gain > 0.0 else gain
+
+    def _odds(self, number: int, place: Place, index: int) -> float:
+        if number in self.classes:
+            chances = self.h.chances
+            odds = chances.odds + place.ways[index].net * chances.unit
+            return min(max(odds, -chances.limit), chances.limit)
+        return way_odds(self.h, number, place, index)
+
+    def _chart(self, one: int, other: int, *, period: bool) -> None:
+        """Lay the charts of both over each other; what coincides is one."""
+        a, b = self.h.places[one], self.h.places[other]
+        if a.frame != b.frame:
+            self._join(a, b)
+        elif period and a.position != b.position:
+            vector = [x - y for x, y in zip(a.position, b.position, strict=True)]
+            periods = with_period(self.h.periods.get(a.frame, ()), vector)
+            self.periods = (a.frame, periods)
+            self._coincide(a.frame, a.frame, (0,) * len(vector), periods)
+
+    def _join(self, a: Place, b: Place) -> None:
+        if a.frame > b.frame:
+            a, b = b, a
+        shift = tuple(x - y for x, y in zip(a.position, b.position, strict=True))
+        periods = self.h.periods.get(a.frame, ())
+        if more := self.h.periods.get(b.frame):
+            for row in more:
+                periods = with_period(periods, row)
+            self.periods = (a.frame, periods)
+            self._coincide(a.frame, a.frame, (0,) * len(shift), periods)
+        self.joined = self._coincide(b.frame, a.frame, shift, periods)
+
+    def _coincide(self, frame: int, onto: int, shift: tuple[int, ...], periods: Periods) -> int:
+        """Place the chart `frame` onto another (or itself); returns the number of its places."""
+        h, count = self.h, 0
+        taken = {key[1]: number for number, key in self.charted.items() if key[0] == onto}
+        for number in h.places:
+            place = h.places[number]
+            if place.frame != frame or not place.position:
+                continue
+            count += 1
+            position = reduced([x + d for x, d in zip(place.position, shift, strict=True)], periods)
+            if frame == onto and position == place.position:
+                taken.setdefault(position, number)
+                continue
+            self.charted[number] = (onto, position)
+            there = taken.get(position)
+            if there is None and (frame != onto or not periods):
+                there = h.at.get((onto, position))
+            if there is not None and there != number:
+                self._queue.append((there, number))
+            taken.setdefault(position, number)
+        if frame == onto:
+            self._meet(onto, taken)
+        return count
+
+    def _meet(self, frame: int, taken: dict[tuple[int, ...], int]) -> None:
+        """Places that kept their position meet those that came there."""
+        for number in self.h.places:
+            place = self.h.places[number]
+            if place.frame == frame and number not in self.charted:
+                there = taken.get(place.position)
+                if there is not None and there != number:
+                    self._queue.append((there, number))
+
+
+def sights_gain(h: Hypothesis, sensor: int, mine: SightCounts, its: SightCounts) -> float:
+    """log P(both counts | one label) - log P(each | its own): what the labels are is left to the seating."""
+    if not mine or not its:
+        return 0.0
+    unit, labels = h.chances.sight_unit[sensor], h.chances.labels[sensor]
+    both = _sum(mine, its)
+    return _log_sum(both, unit, labels) - _log_sum(mine, unit, labels) - _log_sum(its, unit, labels)
+
+
+def _log_sum(counts: SightCounts, unit: float, labels: int) -> float:
+    """log Σ_l exp(unit · counts[l])."""
+    most = max(counts.values())
+    rest = max(labels - len(counts), 0) * exp(-unit * most)
+    return unit * most + log(rest + sum(exp(unit * (count - most)) for count in counts.values()))
+
+
+def _sum(mine: SightCounts, its: SightCounts) -> SightCounts:
+    return {label: mine.get(label, 0.0) + its.get(label, 0.0) for label in {**mine, **its}}
