@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import lgamma, log
 from typing import NamedTuple
 
-from ...model.rates import ELSEWHERE, NEW, RATE_PRIORS, UNDONE, crp_evidence, log_beta_evidence
+from ...model.rates import ELSEWHERE, MOVED, NEW, RATE_PRIORS, UNDONE, crp_evidence, log_beta_evidence
 from .extending import shared
 from .hypothesis import Hypothesis
 from .records import NOWHERE, Place, Way
@@ -187,6 +187,7 @@ def _built(united: Union, weight: float, more: Links) -> Hypothesis:
 
 def _count(united: Union, h: Hypothesis, more: Links) -> None:
     counts, fewer = h.counts, len(set(united.gone()))
+    counts.yes[MOVED] += united.moved
     counts.no[UNDONE] = max(counts.no[UNDONE] + more.crooked, 0.0)
     if h.scheme.displacements is None:
         counts.yes[NEW] = max(counts.yes[NEW] - fewer, 0.0)

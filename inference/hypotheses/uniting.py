@@ -4,11 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from math import exp, log
+from typing import Any, NamedTuple
 
 from .evidence import probability, way_odds
 from .hypothesis import Hypothesis, Key
 from .periods import Periods, reduced, with_period
 from .records import NOWHERE, RECENT, Place, SightCounts, Way
+
+
+class Fork(NamedTuple):
+    """A way that leads to two places: `kept`, and `other`, where it led `walks` times."""
+
+    number: int
+    index: int
+    kept: int
+    other: int
+    walks: int
 
 
 class Contradiction(Exception):
@@ -18,8 +29,8 @@ class Contradiction(Exception):
 class Union:
     """Classes of places that are one, and how much more probable that makes what was read.
 
-    A place that leads by one action to two places makes these one as well, and so do two places at one position of a
-    chart.
+    A place that leads by one action to two places makes these one as well, or else the link that was walked less was
+    something else; two places at one position of a chart are one.
 
     Attributes:
         h: the hypothesis; it is not changed.
@@ -27,6 +38,7 @@ class Union:
         classes: the records of united places, by their first one.
         charted: (frame, position) of places whose chart has changed.
         periods: of the chart that closes on itself by this, and its frame.
+        moved: walks that were something else, if this is so.
     """
 
     def __init__(self, h: Hypothesis, *, floor: float) -> None:
@@ -36,7 +48,9 @@ class Union:
         self.periods: tuple[int, Periods] | None = None
         self.joined = 0
         self._first: dict[int, int] = {}
-        self._queue: list[tuple[int, int]] = []
+        self._pairs: list[tuple[int, int]] = []
+        self._forks: list[Fork] = []
+        self.moved = 0.0
 
     def find(self, number: int) -> int:
         """The place that stands for the class of one."""
@@ -76,37 +90,107 @@ class Union:
         """
         if self.h.scheme.displacements is not None:
             self._chart(one, other, period=period)
-        self._queue.append((one, other))
-        while self._queue:
-            a, b = (self.find(number) for number in self._queue.pop())
-            if a != b:
-                self._merge(min(a, b), max(a, b))
-                if self.gain < self._floor:
-                    raise Contradiction
+        self._pairs.append((one, other))
+        self._follow()
+
+    def _follow(self) -> None:
+        """Unite what has to be, and then, of links that contradict each other, both ends or neither."""
+        while self._pairs or self._forks:
+            if self._pairs:
+                a, b = (self.find(number) for number in self._pairs.pop())
+                if a != b:
+                    self._merge(min(a, b), max(a, b))
+                    if self.gain < self._floor:
+                        raise Contradiction
+            else:
+                self._settle(self._forks.pop())
+
+    def _settle(self, fork: Fork) -> None:
+        """One way leads to two places: they are one, or the link that was walked less often was something else."""
+        number, one, other = self.find(fork.number), self.find(fork.kept), self.find(fork.other)
+        if one == other:
+            return
+        cost = self._cost(number, fork)
+        saved, floor = self._state(), self._floor
+        self._floor = max(floor, self.gain - cost)
+        self._pairs, self._forks = [(one, other)], []
+        try:
+            self._follow()
+        except Contradiction:
+            self._restore(saved)
+            self._floor = floor
+            self._cut(number, fork)
+            self.gain -= cost
+            if self.gain < floor:
+                raise
+        else:
+            self._pairs, self._forks = saved[-2], saved[-1]
+            self._floor = floor
+
+    def _state(self) -> tuple[Any, ...]:
+        return (
+            self.gain, self.moved, self.classes.copy(), self._first.copy(), self._pairs, self._forks.copy(),
+        )  # fmt: skip
+
+    def _restore(self, saved: tuple[Any, ...]) -> None:
+        self.gain, self.moved, self.classes, self._first, self._pairs, self._forks = saved
+
+    def _cost(self, number: int, fork: Fork) -> float:
+        """-log P(the walks along the link that is given up were something else): astray, a silent move."""
+        chances, walks = self.h.chances, fork.walks
+        if not walks:
+            return -log(1.0 - chances.undone)
+        other = self.find(fork.other)
+        ends = [self.find(way.to) for way in self.view(number).ways if way.to != NOWHERE]
+        beside = other == number or other in ends
+        p = chances.moved / self.h.size
+        if beside:
+            p = max(p, (chances.astray + chances.fails) / self.h.scheme.count)
+        return -walks * log(p)
+
+    def _cut(self, number: int, fork: Fork) -> None:
+        """Forget a link: the way leads to `kept`, and nothing is known from it of the way back."""
+        self.moved += fork.walks
+        other = self.find(fork.other)
+        place = self.view(other)
+        into = frozenset(
+            (source, index)
+            for source, index in place.into
+            if index != fork.index or self.find(source) != number
+        )
+        ways = list(place.ways)
+        if self.h.scheme.inverse is not None:
+            back = self.h.scheme.inverse[fork.index]
+            way = ways[back]
+            if way.to != NOWHERE and self.find(way.to) == number and not way.walks:
+                ways[back] = Way(way.net, way.open, way.blocked)
+        self.classes[other] = Place(
+            place.sights, tuple(ways), place.frame, place.position, place.recent, into, place.share
+        )
 
     def _merge(self, first: int, second: int) -> None:
         a, b = self.view(first), self.view(second)
         for sensor, (mine, its) in enumerate(zip(a.sights, b.sights, strict=True)):
             self.gain += sights_gain(self.h, sensor, mine, its)
-        most = self.h.chances.most
         ways: list[Way] = []
         for index, (mine, its) in enumerate(zip(a.ways, b.ways, strict=True)):
             self.gain += self._ways_gain(first, a, second, b, index)
-            ways.append(self._one_way(mine, its, most))
+            ways.append(self._one_way(first, index, mine, its))
         recent = tuple(sorted({*a.recent, *b.recent}))[-RECENT:]
         sights = tuple(_sum(mine, its) for mine, its in zip(a.sights, b.sights, strict=True))
         self._first[second] = first
         self.classes.pop(second, None)
         self.classes[first] = Place(sights, tuple(ways), a.frame, a.position, recent, a.into | b.into, a.share)
 
-    def _one_way(self, mine: Way, its: Way, most: float) -> Way:
-        to = mine.to
-        if to == NOWHERE:
-            to = its.to
-        elif its.to not in (NOWHERE, to):
-            self._queue.append((mine.to, its.to))
+    def _one_way(self, number: int, index: int, mine: Way, its: Way) -> Way:
+        most = self.h.chances.most
         net = min(max(mine.net + its.net, -most), most)
-        return Way(net, mine.open + its.open, mine.blocked + its.blocked, mine.walks + its.walks, to)
+        opened, blocked = mine.open + its.open, mine.blocked + its.blocked
+        if mine.to == NOWHERE or its.to == NOWHERE or self.find(mine.to) == self.find(its.to):
+            return Way(net, opened, blocked, mine.walks + its.walks, its.to if mine.to == NOWHERE else mine.to)
+        kept, other = (mine, its) if mine.walks >= its.walks else (its, mine)
+        self._forks.append(Fork(number, index, kept.to, other.to, other.walks))
+        return Way(net, opened, blocked, kept.walks, kept.to)
 
     def _ways_gain(self, first: int, a: Place, second: int, b: Place, index: int) -> float:
         """log Σ_s P(s | a) P(s | b) / P(s), s being open or blocked; half where both sides of the door are united."""
@@ -167,7 +251,7 @@ class Union:
             if there is None and (frame != onto or not periods):
                 there = h.at.get((onto, position))
             if there is not None and there != number:
-                self._queue.append((there, number))
+                self._pairs.append((there, number))
             taken.setdefault(position, number)
         if frame == onto:
             self._meet(onto, taken)
@@ -180,7 +264,7 @@ class Union:
             if place.frame == frame and number not in self.charted:
                 there = taken.get(place.position)
                 if there is not None and there != number:
-                    self._queue.append((there, number))
+                    self._pairs.append((there, number))
 
 
 def sights_gain(h: Hypothesis, sensor: int, mine: SightCounts, its: SightCounts) -> float:
