@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import lgamma, log
+from math import exp, lgamma, log
 from typing import NamedTuple
 
-from ...model.rates import ELSEWHERE, MOVED, NEW, RATE_PRIORS, UNDONE, crp_evidence, log_beta_evidence
+from ...model.rates import ASTRAY, ELSEWHERE, MOVED, NEW, RATE_PRIORS, UNDONE, crp_evidence, log_beta_evidence
+from .chances import Chances
 from .extending import shared
 from .hypothesis import Hypothesis
 from .records import NOWHERE, Place, Way
@@ -67,7 +68,8 @@ def scored(united: Union) -> tuple[float, Links]:
     h = united.h
     before, after = _links(united, apart=True), _links(united, apart=False)
     more = Links(*(b - a for a, b in zip(before, after, strict=True)))
-    gain = united.gain + _seating_gain(united)
+    gain = united.sights - united.cost + _seating_gain(united)
+    gain += _doors(united, apart=False) - _doors(united, apart=True)
     gain += _structure_gain(united, more)
     gain += _gain(h, UNDONE, 0, more.crooked) + more.meeting * INJECTIVE
     if united.joined > 1:
@@ -157,13 +159,46 @@ def _off(united: Union, number: int, index: int, to: int, *, apart: bool) -> boo
         place, there = h.places[number], h.places[to]
         return h.beyond(place, index) != (there.frame, there.position)
     frame, position = united.key(number)
-    ahead = tuple(x + d for x, d in zip(position, h.scheme.displacements[index], strict=True))
-    key = h.canonical(frame, ahead)
-    if united.periods is not None and united.periods[0] == frame:
-        from .periods import reduced
+    ahead = [x + d for x, d in zip(position, h.scheme.displacements[index], strict=True)]
+    return united.canonical(frame, ahead) != united.key(to)
 
-        key = frame, reduced(ahead, united.periods[1])
-    return key != united.key(to)
+
+def _doors(united: Union, *, apart: bool) -> float:
+    """log P(readings of the ways concerned), those of both sides of a door together."""
+    h, inverse = united.h, united.h.scheme.inverse
+    find = (lambda number: number) if apart else united.find
+    view = h.places.__getitem__ if apart else united.view
+    done: set[tuple[int, int]] = set()
+    total = 0.0
+    for number in united.members() if apart else united.classes:
+        place = view(number)
+        for index, way in enumerate(place.ways):
+            if (number, index) in done:
+                continue
+            other = NOWHERE
+            if inverse is not None:
+                other = find(way.to) if way.to != NOWHERE else h.beside(place, index) if apart else united.beside(number, index)
+            its = 0.0
+            if other != NOWHERE and inverse is not None:
+                back = view(other).ways[inverse[index]]
+                if back.to == NOWHERE or find(back.to) == number:
+                    its = back.net
+                    done.add((other, inverse[index]))
+            if way.net or its:
+                total += door_evidence(h.chances, way.net, its)
+    return total
+
+
+def door_evidence(chances: Chances, mine: float, its: float) -> float:
+    """log P(readings of both sides of a door), but for what is the same for an open and a blocked one.
+
+        ρ [π l m + (1 - π) / (l m)] + (1 - ρ) [π l + (1 - π) / l] [π m + (1 - π) / m],  l = exp(net · unit / 2)
+    """
+    p, half = chances.open, 0.5 * chances.unit
+    one, other = exp(mine * half), exp(its * half)
+    same = p * one * other + (1.0 - p) / (one * other)
+    apart = (p * one + (1.0 - p) / one) * (p * other + (1.0 - p) / other)
+    return log(chances.undone * same + (1.0 - chances.undone) * apart)
 
 
 def _built(united: Union, weight: float, more: Links) -> Hypothesis:
@@ -188,6 +223,8 @@ def _built(united: Union, weight: float, more: Links) -> Hypothesis:
 def _count(united: Union, h: Hypothesis, more: Links) -> None:
     counts, fewer = h.counts, len(set(united.gone()))
     counts.yes[MOVED] += united.moved
+    counts.yes[ASTRAY] += united.astray
+    counts.no[ASTRAY] = max(counts.no[ASTRAY] - united.astray, 0.0)
     counts.no[UNDONE] = max(counts.no[UNDONE] + more.crooked, 0.0)
     if h.scheme.displacements is None:
         counts.yes[NEW] = max(counts.yes[NEW] - fewer, 0.0)
@@ -226,7 +263,11 @@ def _neighbours(united: Union) -> set[int]:
 def _resolved(united: Union, number: int) -> Place:
     """The record of a place with every number of a united place replaced by the first one's."""
     place, find = united.view(number), united.find
-    ways = [Way(*way[:4], find(way.to)) if way.to != NOWHERE else way for way in place.ways]
+    most = united.h.chances.most
+    ways = [
+        Way(min(max(way.net, -most), most), *way[1:4], find(way.to) if way.to != NOWHERE else NOWHERE)
+        for way in place.ways
+    ]
     into = frozenset((find(source), index) for source, index in place.into)
     inverse = united.h.scheme.inverse
     if inverse is not None:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from math import exp, log
+from collections.abc import Iterable, Sequence
+from math import exp, inf, log
 from typing import Any, NamedTuple
 
 from .evidence import probability, way_odds
 from .hypothesis import Hypothesis, Key
 from .periods import Periods, reduced, with_period
 from .records import NOWHERE, RECENT, Place, SightCounts, Way
+
+
+ATTEMPTS = 24
+"""Pairs that one union tries to unite because of contradicting links; there may be exponentially many."""
 
 
 class Fork(NamedTuple):
@@ -34,23 +38,26 @@ class Union:
 
     Attributes:
         h: the hypothesis; it is not changed.
-        gain: log P(readings | united) - log P(readings | apart), without what `scoring` adds.
+        gain: about log P(readings | united) - log P(readings | apart); what is below the floor is given up early.
+        sights: the part of it that sights have, which is exact.
+        cost: of links that were given up.
         classes: the records of united places, by their first one.
         charted: (frame, position) of places whose chart has changed.
         periods: of the chart that closes on itself by this, and its frame.
-        moved: walks that were something else, if this is so.
+        moved, astray: walks that were something else, if this is so.
     """
 
     def __init__(self, h: Hypothesis, *, floor: float) -> None:
-        self.h, self.gain, self._floor = h, 0.0, floor
+        self.h, self._floor = h, floor
+        self.gain = self.sights = self.cost = self.moved = self.astray = 0.0
         self.classes: dict[int, Place] = {}
         self.charted: dict[int, Key] = {}
         self.periods: tuple[int, Periods] | None = None
-        self.joined = 0
+        self.joined = self._attempts = 0
+        self._placed: dict[Key, int] = {}
         self._first: dict[int, int] = {}
         self._pairs: list[tuple[int, int]] = []
         self._forks: list[Fork] = []
-        self.moved = 0.0
 
     def find(self, number: int) -> int:
         """The place that stands for the class of one."""
@@ -77,6 +84,31 @@ class Union:
         number = self.find(number)
         place = self.h.places[number]
         return self.charted.get(number) or (place.frame, place.position)
+
+    def beside(self, number: int, way: int) -> int:
+        """The place that poses say is beyond a way, with the charts as they are when united."""
+        if self.h.scheme.displacements is None:
+            return NOWHERE
+        frame, position = self.key(number)
+        ahead = [x + d for x, d in zip(position, self.h.scheme.displacements[way], strict=True)]
+        key = self.canonical(frame, ahead)
+        found = self._at().get(key)
+        if found is None:
+            found = self.h.at.get(key)
+            if found is None or found in self.charted:
+                return NOWHERE
+        return self.find(found)
+
+    def canonical(self, frame: int, position: Sequence[int]) -> Key:
+        """The one key of a position, with the charts as they are when united."""
+        if self.periods is not None and self.periods[0] == frame:
+            return frame, reduced(position, self.periods[1])
+        return self.h.canonical(frame, position)
+
+    def _at(self) -> dict[Key, int]:
+        if len(self._placed) != len(self.charted):
+            self._placed = {key: number for number, key in self.charted.items()}
+        return self._placed
 
     def unite(self, one: int, other: int, *, period: bool = False) -> None:
         """Take two places for one.
@@ -106,51 +138,67 @@ class Union:
                 self._settle(self._forks.pop())
 
     def _settle(self, fork: Fork) -> None:
-        """One way leads to two places: they are one, or the link that was walked less often was something else."""
-        number, one, other = self.find(fork.number), self.find(fork.kept), self.find(fork.other)
-        if one == other:
+        """One way leads to two places: they are one, or the walks along one of the two links were something else."""
+        kept, other = self.find(fork.kept), self.find(fork.other)
+        if kept == other or self._attempt((kept, other), self._cost_of_moves(fork)):
             return
-        cost = self._cost(number, fork)
+        number = self.find(fork.number)
+        astray = fork.walks * -log(self.h.chances.astray / self.h.scheme.count) if fork.walks else inf
+        for end in [number, *(self.find(way.to) for way in self.view(number).ways if way.to != NOWHERE)]:
+            fits = end == other or self.view(end).label() == self.view(other).label()
+            if fits and end != kept and astray < self._cost_of_moves(fork):
+                cost = fork.walks * -log(self.h.chances.fails) if end == number else astray
+                if self._attempt((end, other), self._cost_of_moves(fork) - cost):
+                    self._give_up(fork, cost)
+                    self.astray += fork.walks
+                    return
+        self._give_up(fork, self._cost_of_moves(fork))
+        self.moved += fork.walks
+
+    def _attempt(self, pair: tuple[int, int], worth: float) -> bool:
+        """Unite a pair, and all that follows from it, unless that makes the readings less probable by `worth`."""
+        if self._attempts >= ATTEMPTS:
+            return False
+        self._attempts += 1
         saved, floor = self._state(), self._floor
-        self._floor = max(floor, self.gain - cost)
-        self._pairs, self._forks = [(one, other)], []
+        self._floor = max(floor, self.gain - worth)
+        self._pairs, self._forks = [pair], []
         try:
             self._follow()
         except Contradiction:
             self._restore(saved)
             self._floor = floor
-            self._cut(number, fork)
-            self.gain -= cost
-            if self.gain < floor:
-                raise
-        else:
-            self._pairs, self._forks = saved[-2], saved[-1]
-            self._floor = floor
+            return False
+        self._pairs, self._forks = saved[-2:]
+        self._floor = floor
+        return True
+
+    def _give_up(self, fork: Fork, cost: float) -> None:
+        self._cut(self.find(fork.number), fork)
+        self.gain -= cost
+        self.cost += cost
+        if self.gain < self._floor:
+            raise Contradiction
 
     def _state(self) -> tuple[Any, ...]:
         return (
-            self.gain, self.moved, self.classes.copy(), self._first.copy(), self._pairs, self._forks.copy(),
+            self.gain, self.sights, self.cost, self.moved, self.astray, self.classes.copy(), self._first.copy(),
+            self._pairs, self._forks,
         )  # fmt: skip
 
     def _restore(self, saved: tuple[Any, ...]) -> None:
-        self.gain, self.moved, self.classes, self._first, self._pairs, self._forks = saved
+        self.gain, self.sights, self.cost, self.moved, self.astray = saved[:5]
+        self.classes, self._first, self._pairs, self._forks = saved[5:]
 
-    def _cost(self, number: int, fork: Fork) -> float:
-        """-log P(the walks along the link that is given up were something else): astray, a silent move."""
-        chances, walks = self.h.chances, fork.walks
-        if not walks:
+    def _cost_of_moves(self, fork: Fork) -> float:
+        """-log P(the walks along the link that is given up were silent moves)."""
+        chances = self.h.chances
+        if not fork.walks:
             return -log(1.0 - chances.undone)
-        other = self.find(fork.other)
-        ends = [self.find(way.to) for way in self.view(number).ways if way.to != NOWHERE]
-        beside = other == number or other in ends
-        p = chances.moved / self.h.size
-        if beside:
-            p = max(p, (chances.astray + chances.fails) / self.h.scheme.count)
-        return -walks * log(p)
+        return -fork.walks * log(chances.moved / self.h.size)
 
     def _cut(self, number: int, fork: Fork) -> None:
         """Forget a link: the way leads to `kept`, and nothing is known from it of the way back."""
-        self.moved += fork.walks
         other = self.find(fork.other)
         place = self.view(other)
         into = frozenset(
@@ -171,7 +219,9 @@ class Union:
     def _merge(self, first: int, second: int) -> None:
         a, b = self.view(first), self.view(second)
         for sensor, (mine, its) in enumerate(zip(a.sights, b.sights, strict=True)):
-            self.gain += sights_gain(self.h, sensor, mine, its)
+            gained = sights_gain(self.h, sensor, mine, its)
+            self.sights += gained
+            self.gain += gained
         ways: list[Way] = []
         for index, (mine, its) in enumerate(zip(a.ways, b.ways, strict=True)):
             self.gain += self._ways_gain(first, a, second, b, index)
@@ -183,8 +233,7 @@ class Union:
         self.classes[first] = Place(sights, tuple(ways), a.frame, a.position, recent, a.into | b.into, a.share)
 
     def _one_way(self, number: int, index: int, mine: Way, its: Way) -> Way:
-        most = self.h.chances.most
-        net = min(max(mine.net + its.net, -most), most)
+        net = mine.net + its.net  # bounds are for the place when it is built: here they would lose evidence
         opened, blocked = mine.open + its.open, mine.blocked + its.blocked
         if mine.to == NOWHERE or its.to == NOWHERE or self.find(mine.to) == self.find(its.to):
             return Way(net, opened, blocked, mine.walks + its.walks, its.to if mine.to == NOWHERE else mine.to)
