@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Sequence
 from math import exp, lgamma, log
 from typing import NamedTuple
 
@@ -29,21 +29,17 @@ class Links(NamedTuple):
     meeting: int
 
 
-def folds(h: Hypothesis, *, floor: float, most: int = 12) -> Iterator[Hypothesis]:
-    """The hypothesis with the place where the agent is united with each place that looks like it.
+def pairs(h: Hypothesis, *, most: int = 12) -> Iterator[tuple[int, int, bool]]:
+    """The place where the agent is with each that looks like it: (one, other, whether their chart closes on itself).
 
-    Args:
-        h: the hypothesis; it is not changed.
-        floor: log weight below which a result is not wanted.
-        most: number of look-alikes that are tried.
+    At most the `most` look-alikes that were seen last are named.
     """
     here = h.places[h.here]
     alike = h.shown.get((0, here.label())) or ()
     for other in [number for number in alike if number != h.here][-most:]:
-        for period in (False, True) if _may_close(h, here, h.places[other]) else (False,):
-            united = union(h, h.here, other, period=period, floor=floor)
-            if united is not None:
-                yield united
+        yield h.here, other, False
+        if _may_close(h, here, h.places[other]):
+            yield h.here, other, True
 
 
 def _may_close(h: Hypothesis, one: Place, other: Place) -> bool:
@@ -100,24 +96,31 @@ def _gain(h: Hypothesis, rate: int, yes: float, no: float) -> float:
 
 
 def _seating_gain(united: Union) -> float:
-    """What it does to the Chinese restaurant process that fewer places show what they show."""
-    h, gain = united.h, 0.0
-    members = united.members()
+    labels = [[p.label(sensor) for p in united.classes.values()] for sensor in range(united.h.scheme.sensors)]
+    return seating(united.h, removed=united.members(), added=labels)
+
+
+def seating(h: Hypothesis, *, removed: Collection[int], added: Sequence[Sequence[int]] | None = None) -> float:
+    """What it does to the Chinese restaurant processes that some places do not show what they show, and others do.
+
+    Args:
+        h: the hypothesis.
+        removed: places.
+        added: labels of places that are there instead, a sensor each.
+    """
+    gain = 0.0
     for sensor in range(h.scheme.sensors):
+        new = added[sensor] if added else ()
         tables: dict[int, int] = {}
-        for number in members:
-            label = h.places[number].label(sensor)
-            tables[label] = tables.get(label, 0) - 1
-        for place in united.classes.values():
-            label = place.label(sensor)
-            tables[label] = tables.get(label, 0) + 1
+        for label, more in [*((h.places[k].label(sensor), -1) for k in removed), *((label, 1) for label in new)]:
+            tables[label] = tables.get(label, 0) + more
         kinds = h.kinds[sensor]
         after = kinds
         for label, more in tables.items():
             before = len(h.shown.get((sensor, label)) or ())
             gain += lgamma(max(before + more, 1)) - lgamma(max(before, 1))
             after += (before + more > 0) - (before > 0)
-        gain += crp_evidence(after, h.size - len(set(united.gone()))) - crp_evidence(kinds, h.size)
+        gain += crp_evidence(after, h.size - len(removed) + len(new)) - crp_evidence(kinds, h.size)
     return gain
 
 

@@ -37,13 +37,22 @@ def signature(h: Hypothesis) -> Signature:
     return tuple(found)
 
 
-def merged(hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:
-    """One of each kind, the most probable, with the weight of all of them; the most probable first."""
+def merged(hypotheses: Sequence[Hypothesis], proposed: Sequence[Hypothesis] = ()) -> list[Hypothesis]:
+    """One of each kind, the most probable first.
+
+    Hypotheses that say the same are histories of one map, so that their weights add up; one that was only proposed
+    says nothing that those before it did not: of its weight and theirs the larger one counts.
+    """
+    if len(hypotheses) + len(proposed) == 1:
+        return [*hypotheses, *proposed]
     kept: dict[Signature, Hypothesis] = {}
     for h in sorted(hypotheses, key=lambda h: -h.weight):
         same = kept.setdefault(signature(h), h)
         if same is not h:
             same.weight = log_add(same.weight, h.weight)
+    for h in sorted(proposed, key=lambda h: -h.weight):
+        same = kept.setdefault(signature(h), h)
+        same.weight = max(same.weight, h.weight)
     return sorted(kept.values(), key=lambda h: -h.weight)
 
 

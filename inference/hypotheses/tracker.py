@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from heapq import nlargest
 from math import exp, log
@@ -10,10 +10,20 @@ from math import exp, log
 from .branches import Branch, branches
 from .chances import Chances
 from .extending import begin, extend
-from .folding import folds
+from .folding import pairs, union
 from .hypothesis import Hypothesis
 from .pruning import merged, normalised
+from .replaying import History, doubted, without
 from .scheme import Percept, WayScheme
+
+
+Try = tuple[int, int, bool, int, int]
+
+AGAIN = 16
+"""Steps after which a folding that was too improbable is tried again, in a map that has not changed since."""
+
+MANY = 4096
+"""Foldings that are remembered."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +49,9 @@ class Tracker:
         self.options = options or TrackerOptions()
         self.hypotheses: list[Hypothesis] = []
         self.time = 0
-        self.surprise = 0.0
+        self.history = History()
+        self._doubts: list[int] = []
+        self._tried: dict[Try, int] = {}
 
     @property
     def best(self) -> Hypothesis:
@@ -53,6 +65,7 @@ class Tracker:
             percept: what it brings.
             labels: number of labels that each sensor has shown so far, this step included.
         """
+        self.history.add(percept)
         if not self.hypotheses:
             first = Hypothesis(self.scheme)
             first.chances = Chances(first.counts, [n + 1 for n in labels])
@@ -76,19 +89,17 @@ class Tracker:
 
     def _advance(self, percept: Percept, labels: Sequence[int]) -> None:
         drop = -log(self.options.least)
-        found: list[Branch] = []
+        happened: list[Branch] = []
         for h in self.hypotheses:
             h.chances = Chances(h.counts, labels)
-            found.extend(branches(h, percept, drop=drop))
-        top = max(branch.weight for branch in found)
-        found = [branch for branch in found if branch.weight > top - drop]
-        found = nlargest(3 * self.options.most, found, key=lambda branch: branch.weight)
-        children = self._extended(found, percept)
-        children.extend(self._folded(children, drop))
-        self.surprise = -max(h.weight for h in children)
-        if len(children) > 1:
-            children = merged(children)
-        self.hypotheses = normalised(children, drop=drop, most=self.options.most)
+            happened.extend(branches(h, percept, drop=drop))
+        top = max(branch.weight for branch in happened)
+        happened = [branch for branch in happened if branch.weight > top - drop]
+        happened = nlargest(3 * self.options.most, happened, key=lambda branch: branch.weight)
+        children = self._extended(happened, percept)
+        proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
+        found = merged(children, proposed)
+        self.hypotheses = normalised(found, drop=drop, most=self.options.most)
         if len(self.hypotheses) == 1:
             self.hypotheses[0].settle()
 
@@ -111,5 +122,29 @@ class Tracker:
         results: list[Hypothesis] = []
         for rank, h in enumerate(tried):
             if rank < self.options.folded or h.here == self.time:
-                results.extend(folds(h, floor=max([top, *(r.weight for r in results)]) - drop))
+                results.extend(self._folds(h, max([top, *(r.weight for r in results)]) - drop))
         return results
+
+    def _without(self, h: Hypothesis, drop: float) -> Iterator[Hypothesis]:
+        """The most probable hypothesis without some place that it may only have imagined; one is looked at a step."""
+        if not self._doubts:
+            self._doubts = list(h.places)
+        number = self._doubts.pop()
+        if h.places.get(number) is not None and (numbers := doubted(h, number, self.history)):
+            other = without(h, numbers, self.history, floor=h.weight - drop)
+            if other is not None:
+                yield other
+
+    def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
+        """The foldings that are probable enough; what failed is tried again when the map has changed, or later."""
+        for one, other, period in pairs(h):
+            key = (one, other, period, h.size, h.links)
+            if self.time < self._tried.get(key, 0):
+                continue
+            united = union(h, one, other, period=period, floor=floor)
+            if united is None:
+                self._tried[key] = self.time + AGAIN
+            else:
+                yield united
+        if len(self._tried) > MANY:
+            self._tried.clear()
