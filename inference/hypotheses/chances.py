@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import log
 
-from ...model.rates import (
+from ...model.recognition import (
     ASTRAY,
+    BESIDE,
     CHANGED,
     ELSEWHERE,
     FAILS,
@@ -28,6 +29,7 @@ class Chances:
 
     Attributes:
         open, odds: P(a way is open) and its log odds.
+        beside: log odds that a way is open beyond which there is a known place.
         wrong, unit: P(a way is misread) and the log odds that one reading is worth.
         limit, most: the log odds beyond which nothing is believed of a way, since it may change; in readings.
         misread, right, sight_unit: P(a sight is misread as a certain other label), P(it is read right), and the log
@@ -38,6 +40,7 @@ class Chances:
 
     __slots__ = (
         "astray",
+        "beside",
         "elsewhere",
         "fails",
         "labels",
@@ -55,8 +58,12 @@ class Chances:
         "wrong",
     )
 
-    def __init__(self, counts: RateCounts, labels: Sequence[int]) -> None:
+    def __init__(self, counts: RateCounts, labels: Sequence[int], *, size: int = 1) -> None:
         mean = counts.mean
+        found = size - 1.0  # ways by which places were found say nothing of those between places found otherwise
+        beside = (counts.yes[BESIDE] - found, counts.no[BESIDE])
+        between = (1.0 + max(beside[0], 0.0)) / (2.0 + max(beside[0], 0.0) + max(beside[1], 0.0))
+        self.beside = log(between / (1.0 - between))
         self.open = mean(OPEN)
         self.odds = log(self.open / (1.0 - self.open))
         self.wrong = min(max(mean(WAY_MISREAD), SUREST), LEAST_SURE)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import exp, log
 
-from ...model.rates import crp_predictive
+from ...model.recognition import crp_predictive
 from .chances import Chances
 from .hypothesis import Hypothesis, Key
 from .records import NOWHERE, Place, SightCounts
@@ -83,8 +83,8 @@ def new_sight_probability(h: Hypothesis, sensor: int, reading: Reading) -> float
 def way_odds(h: Hypothesis, number: int, place: Place, way: int) -> float:
     """Log odds that a way is open: what was read here, and from the other side of the door."""
     chances, mine = h.chances, place.ways[way]
-    odds = chances.odds + mine.net * chances.unit
     other = h.neighbour(place, way)
+    odds = (chances.odds if other == NOWHERE else chances.beside) + mine.net * chances.unit
     if other != NOWHERE and h.scheme.inverse is not None:
         odds += other_side(h, other, h.scheme.inverse[way], number)
     return min(max(odds, -chances.limit), chances.limit)
@@ -126,4 +126,4 @@ def _expected_open(h: Hypothesis, key: Key | None, way: int, back: int | None, s
     other = h.at.get(h.canonical(key[0], position))
     if other is None:
         return chances.open
-    return probability(chances.odds + other_side(h, other, h.scheme.inverse[way], NOWHERE))
+    return probability(chances.beside + other_side(h, other, h.scheme.inverse[way], NOWHERE))

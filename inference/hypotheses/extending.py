@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import log
 
-from ...model.rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
+from ...model.recognition import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
 from .branches import Branch
 from .chances import Chances
 from .evidence import label_probability, probability, sight_probability, way_odds
@@ -185,13 +185,18 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
 
     A door between two places is shared by both: each adds half of it.
     """
-    open_, blocked, wrong, right = 0.0, 0.0, 0.0, 0.0
+    opened, blocked, wrong, right, beside, shut = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    chances = h.chances
     for index, way in enumerate(place.ways):
-        if way.net or way.open or way.blocked:
-            p = probability(way_odds(h, number, place, index))
-            half = 0.5 if h.scheme.inverse is not None and h.neighbour(place, index) != NOWHERE else 1.0
-            open_ += half * p
+        odds = way_odds(h, number, place, index)
+        known = h.neighbour(place, index) != NOWHERE
+        if way.net or odds != (chances.beside if known else chances.odds):
+            p = probability(odds)
+            half = 0.5 if h.scheme.inverse is not None and known else 1.0
+            opened += half * p
             blocked += half * (1.0 - p)
+            beside += half * p * known
+            shut += half * (1.0 - p) * known
             wrong += p * way.blocked + (1.0 - p) * way.open
             right += p * way.open + (1.0 - p) * way.blocked
     misread, read = 0.0, 0.0
@@ -200,5 +205,5 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
             p = label_probability(h.chances, sensor, counts, label)
             misread += count * (1.0 - p)
             read += count * p
-    share = Share(open_, blocked, wrong, right, misread, read)
+    share = Share(opened, blocked, wrong, right, misread, read, beside, shut)
     return Place(place.sights, place.ways, place.frame, place.position, place.recent, place.into, share)

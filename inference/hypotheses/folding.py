@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Sequence
 from math import exp, lgamma, log
 from typing import NamedTuple
 
-from ...model.rates import ASTRAY, ELSEWHERE, MOVED, NEW, RATE_PRIORS, UNDONE, crp_evidence, log_beta_evidence
+from ...model.recognition import ASTRAY, ELSEWHERE, MOVED, NEW, RATE_PRIORS, UNDONE, crp_evidence, log_beta_evidence
 from .chances import Chances
 from .extending import shared
 from .hypothesis import Hypothesis

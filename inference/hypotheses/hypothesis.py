@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...model.rates import OPEN, SIGHT_MISREAD, WAY_MISREAD, RateCounts
+from ...model.recognition import BESIDE, OPEN, SIGHT_MISREAD, WAY_MISREAD, RateCounts
 from .chances import Chances
 from .layered import Layered
 from .periods import Periods, reduced
@@ -131,6 +131,8 @@ class Hypothesis:
         no[WAY_MISREAD] += sign * share.ways_right
         yes[SIGHT_MISREAD] += sign * share.sights_wrong
         no[SIGHT_MISREAD] += sign * share.sights_right
+        yes[BESIDE] += sign * share.beside_open
+        no[BESIDE] += sign * share.beside_blocked
 
     def _relabel(self, sensor: int, number: int, was: int, now: int) -> None:
         if was >= 0:

@@ -42,6 +42,8 @@ class Share(NamedTuple):
     ways_right: float = 0.0
     sights_wrong: float = 0.0
     sights_right: float = 0.0
+    beside_open: float = 0.0
+    beside_blocked: float = 0.0
 
 
 class Place(NamedTuple):

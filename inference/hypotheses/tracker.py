@@ -91,7 +91,7 @@ class Tracker:
         drop = -log(self.options.least)
         happened: list[Branch] = []
         for h in self.hypotheses:
-            h.chances = Chances(h.counts, labels)
+            h.chances = Chances(h.counts, labels, size=h.size)
             happened.extend(branches(h, percept, drop=drop))
         top = max(branch.weight for branch in happened)
         happened = [branch for branch in happened if branch.weight > top - drop]

@@ -31,11 +31,12 @@ RATE_PRIORS = (
     RatePrior("elsewhere", 0.25, 4.0, "a way leads where the pose does not say"),
     RatePrior("undone", 20.0, 0.5, "the reverse of an action leads back"),
     RatePrior("changed", 0.5, 500.0, "a way opens or closes between two looks"),
+    RatePrior("beside", 1.0, 1.0, "a way between places found beside each other is open"),
     RatePrior("new", 1.0, 1.0, "a way that was never walked leads to a place never seen (without poses)"),
 )
 """Every rate, in the order of `RateCounts`."""
 
-OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE, UNDONE, CHANGED, NEW = range(len(RATE_PRIORS))
+OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE, UNDONE, CHANGED, BESIDE, NEW = range(len(RATE_PRIORS))
 
 CONCENTRATIONS = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
 """Concentrations of the Chinese restaurant process that are weighed against each other, evenly before any place."""
