@@ -1,6 +1,6 @@
 """How places are recognised: rows of worlds and noise, with poses and without.
 
-    python benchmarks/identity.py ROW [ROW ...] --seeds 0-19 --json FILE
+python benchmarks/identity.py ROW [ROW ...] --seeds 0-19 --json FILE
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ import argparse
 import json
 import sys
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +44,9 @@ def portals(n: int, count: int, labels: int, seed: int) -> Rooms:
     """A grid with two-way portals between outer walls that face each other."""
     rng = np.random.default_rng(880_000 + seed)
     while True:
-        rooms = grid({(r, c): int(rng.integers(labels)) if labels < n * n else r * n + c for r in range(n) for c in range(n)})
+        rooms = grid(
+            {(r, c): int(rng.integers(labels)) if labels < n * n else r * n + c for r in range(n) for c in range(n)}
+        )
         for _ in range(count):
             one, other = [(0, 1), (1, 0), (2, 3), (3, 2)][int(rng.integers(4))]
             free = [[k for k, row in enumerate(rooms.ways) if row[way] == k] for way in (one, other)]
@@ -109,7 +111,9 @@ def run(row: Row, seed: int, options: TrackerOptions) -> dict[str, object]:
     world = World(rooms, int(rng.integers(len(rooms.sights))), rng, row.noise, doors=row.doors)
     tracker = Tracker(scheme(poses=row.poses, inverses=row.inverses), options)
     explorer = Explorer(tracker, seed, doors=row.doors)
-    moves = sorted(int(x) for x in np.cumsum([rng.integers(3, 13) if k == 0 else rng.integers(10, 40) for k in range(row.moves)]))
+    moves = sorted(
+        int(x) for x in np.cumsum([rng.integers(3, 13) if k == 0 else rng.integers(10, 40) for k in range(row.moves)])
+    )
     steps = row.steps if not row.moves else moves[-1] + row.after
     labels: set[int] = set()
     exact: list[bool] = []
@@ -172,7 +176,11 @@ def main() -> None:
     first, last = (int(x) for x in args.seeds.split("-"))
     options = TrackerOptions(most=args.most, least=args.least)
     table = rows()
-    names = [name for name in table if any(name == want or (want.endswith("*") and name.startswith(want[:-1])) for want in args.rows)]
+    names = [
+        name
+        for name in table
+        if any(name == want or (want.endswith("*") and name.startswith(want[:-1])) for want in args.rows)
+    ]
     everything: dict[str, object] = {}
     for name in names:
         results = [run(table[name], seed, options) for seed in range(first, last + 1)]

@@ -6,10 +6,8 @@ import math
 from collections import deque
 
 import numpy as np
-
 from cogmap.inference.hypotheses import NOWHERE, Hypothesis, Tracker
 from identity_world import believed
-
 
 URGENT, WORTH = 0.35, 0.002
 """Nats a step from which on hypotheses are told apart before anything else, and when nothing else is to be done."""

@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-
 from cogmap.inference.hypotheses import NOWHERE, Hypothesis, Percept, WayScheme
 from cogmap.inference.hypotheses.branches import leads
 from cogmap.inference.hypotheses.evidence import probability, way_odds

@@ -10,33 +10,63 @@ from math import exp, lgamma, log
 
 @dataclass(frozen=True, slots=True)
 class RatePrior:
-    """A rate that is learned: Beta(yes, no) before anything was counted.
+    """A rate that is learned: a mixture of Beta distributions before anything was counted.
 
-    Its mean after counting is E = (yes + n_yes) / (yes + no + n_yes + n_no).
+        P(rate) = Σ_k w_k Beta(yes_k, no_k),   P(k | counts) ∝ w_k B(yes_k + n_yes, no_k + n_no) / B(yes_k, no_k)
+
+    Attributes:
+        name: what it is called.
+        meaning: what it is the rate of.
+        parts: (w_k, yes_k, no_k); a second part lets a world be calm or not, as the counts will have it.
     """
 
     name: str
-    yes: float
-    no: float
     meaning: str
+    parts: tuple[tuple[float, float, float], ...]
 
+    def mean(self, yes: float, no: float) -> float:
+        """E[rate | counts]."""
+        if len(self.parts) == 1:
+            _, a, b = self.parts[0]
+            return (a + yes) / (a + b + yes + no)
+        logs = [log(w) + log_beta_evidence(a, b, yes, no) for w, a, b in self.parts]
+        most = max(logs)
+        weights = [exp(value - most) for value in logs]
+        means = [(a + yes) / (a + b + yes + no) for _, a, b in self.parts]
+        return sum(w * mean for w, mean in zip(weights, means, strict=True)) / sum(weights)
+
+    def log_evidence(self, yes: float, no: float) -> float:
+        """log ∫ rate^yes (1 - rate)^no P(rate) d rate."""
+        logs = [log(w) + log_beta_evidence(a, b, yes, no) for w, a, b in self.parts]
+        most = max(logs)
+        return most + log(sum(exp(value - most) for value in logs))
+
+
+def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
+    return RatePrior(name, meaning, ((1.0, yes, no),))
+
+
+CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.1, 0.5, 20.0))
+"""Moves hardly ever go wrong, or else they do often enough."""
 
 RATE_PRIORS = (
-    RatePrior("open", 1.0, 1.0, "a way is open"),
-    RatePrior("sight_misread", 0.5, 20.0, "a sight is read as another"),
-    RatePrior("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
-    RatePrior("fails", 0.5, 20.0, "a move through an open way fails"),
-    RatePrior("astray", 0.5, 20.0, "another action is carried out than the one given"),
-    RatePrior("moved", 0.5, 500.0, "the agent is moved without a word"),
-    RatePrior("elsewhere", 0.25, 4.0, "a way leads where the pose does not say"),
-    RatePrior("undone", 20.0, 0.5, "the reverse of an action leads back"),
-    RatePrior("changed", 0.5, 500.0, "a way opens or closes between two looks"),
-    RatePrior("beside", 1.0, 1.0, "a way between places found beside each other is open"),
-    RatePrior("new", 1.0, 1.0, "a way that was never walked leads to a place never seen (without poses)"),
+    _beta("open", 1.0, 1.0, "a way is open"),
+    _beta("sight_misread", 0.5, 20.0, "a sight is read as another"),
+    _beta("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
+    RatePrior("fails", "a move through an open way fails", CALM_OR_NOT),
+    RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),
+    _beta("moved", 0.5, 500.0, "the agent is moved without a word"),
+    _beta("elsewhere", 0.25, 4.0, "a way leads where the pose does not say"),
+    _beta("undone", 20.0, 0.5, "the reverse of an action leads back"),
+    _beta("changed", 0.5, 500.0, "a way opens or closes between two looks"),
+    _beta("beside", 1.0, 1.0, "a way between places found beside each other is open"),
+    _beta("new", 1.0, 1.0, "a way that was never walked leads to a place never seen (without poses)"),
 )
 """Every rate, in the order of `RateCounts`."""
 
-OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE, UNDONE, CHANGED, BESIDE, NEW = range(len(RATE_PRIORS))
+OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE, UNDONE, CHANGED, BESIDE, NEW = range(
+    len(RATE_PRIORS)
+)
 
 CONCENTRATIONS = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
 """Concentrations of the Chinese restaurant process that are weighed against each other, evenly before any place."""
@@ -55,16 +85,9 @@ class RateCounts:
         """Counts of their own."""
         return RateCounts(self.yes, self.no)
 
-    def mean(self, rate: int, priors: Sequence[RatePrior] = RATE_PRIORS) -> float:
+    def mean(self, rate: int) -> float:
         """Posterior mean of one rate."""
-        prior = priors[rate]
-        yes = prior.yes + max(self.yes[rate], 0.0)
-        return yes / (yes + prior.no + max(self.no[rate], 0.0))
-
-    def log_evidence(self, rate: int, priors: Sequence[RatePrior] = RATE_PRIORS) -> float:
-        """log ∫ p^yes (1 - p)^no Beta(p) dp of what was counted of one rate."""
-        prior = priors[rate]
-        return log_beta_evidence(prior.yes, prior.no, self.yes[rate], self.no[rate])
+        return RATE_PRIORS[rate].mean(max(self.yes[rate], 0.0), max(self.no[rate], 0.0))
 
 
 def log_beta_evidence(a: float, b: float, yes: float, no: float) -> float:

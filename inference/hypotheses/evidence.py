@@ -55,9 +55,7 @@ def sight_probability(chances: Chances, sensor: int, counts: SightCounts, readin
         return right * q + misread * (1.0 - q)
     assert isinstance(reading, Mapping)
     mean = sum(reading.values()) / max(chances.labels[sensor], len(reading))
-    known = sum(
-        label_probability(chances, sensor, counts, label) * likelihood for label, likelihood in reading.items()
-    )
+    known = sum(label_probability(chances, sensor, counts, label) * likelihood for label, likelihood in reading.items())
     return (right - misread) * known + misread * chances.labels[sensor] * mean
 
 
@@ -93,7 +91,7 @@ def way_odds(h: Hypothesis, number: int, place: Place, way: int) -> float:
 def other_side(h: Hypothesis, other: int, back: int, number: int) -> float:
     """Log odds that what was read of the way back adds: P(it is the same door) is the rate `undone`.
 
-        log [ρ l + (1 - ρ) m] / [ρ + (1 - ρ) m],   l = exp(net · unit),   m = π l + 1 - π
+    log [ρ l + (1 - ρ) m] / [ρ + (1 - ρ) m],   l = exp(net · unit),   m = π l + 1 - π
     """
     way = h.places[other].ways[back]
     if not way.net or (way.walks and way.to != number):

@@ -86,6 +86,7 @@ def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Branch) -> None
     walked = Way(net, way.open, way.blocked, way.walks + 1, to)
     h.put(here, with_way(h.places[here], index, walked))
     _arrive(h, here, index, to)
+    h.put(here, shared(h, here, h.places[here]))
 
 
 def _arrive(h: Hypothesis, here: int, index: int, to: int) -> None:

@@ -8,10 +8,10 @@ from math import exp, log
 
 from .branches import leads
 from .evidence import log_likelihood, probability, way_odds
-from .folding import seating
 from .hypothesis import Hypothesis
 from .records import NOWHERE, RECENT, Place, Way
 from .scheme import Percept
+from .weighing import seating
 
 MARGIN = 3
 """Steps before and after a visit that are replayed with it."""

@@ -16,7 +16,6 @@ from .pruning import merged, normalised
 from .replaying import History, doubted, without
 from .scheme import Percept, WayScheme
 
-
 Try = tuple[int, int, bool, int, int]
 
 AGAIN = 16

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from math import exp, inf, log
 from typing import Any, NamedTuple
 
+from .charts import Charts
 from .evidence import probability, way_odds
 from .hypothesis import Hypothesis, Key
-from .periods import Periods, reduced, with_period
 from .records import NOWHERE, RECENT, Place, SightCounts, Way
-
 
 ATTEMPTS = 24
 """Pairs that one union tries to unite because of contradicting links; there may be exponentially many."""
@@ -20,13 +19,13 @@ class Fork(NamedTuple):
     """A way that leads to two places: `kept`, and `other`, where it led `walks` times."""
 
     number: int
-    index: int
+    way: int
     kept: int
     other: int
     walks: int
 
 
-class Contradiction(Exception):
+class ContradictionError(Exception):
     """The places cannot be one, as far as anything is known here."""
 
 
@@ -42,8 +41,7 @@ class Union:
         sights: the part of it that sights have, which is exact.
         cost: of links that were given up.
         classes: the records of united places, by their first one.
-        charted: (frame, position) of places whose chart has changed.
-        periods: of the chart that closes on itself by this, and its frame.
+        charts: where places are, with the charts as they are when united.
         moved, astray: walks that were something else, if this is so.
     """
 
@@ -51,10 +49,8 @@ class Union:
         self.h, self._floor = h, floor
         self.gain = self.sights = self.cost = self.moved = self.astray = 0.0
         self.classes: dict[int, Place] = {}
-        self.charted: dict[int, Key] = {}
-        self.periods: tuple[int, Periods] | None = None
-        self.joined = self._attempts = 0
-        self._placed: dict[Key, int] = {}
+        self.charts = Charts(h)
+        self._attempts = 0
         self._first: dict[int, int] = {}
         self._pairs: list[tuple[int, int]] = []
         self._forks: list[Fork] = []
@@ -80,35 +76,13 @@ class Union:
         return self._first
 
     def key(self, number: int) -> Key:
-        """Frame and position of a place, with the charts as they are when united."""
-        number = self.find(number)
-        place = self.h.places[number]
-        return self.charted.get(number) or (place.frame, place.position)
+        """Frame and position of a place."""
+        return self.charts.key(self.find(number))
 
     def beside(self, number: int, way: int) -> int:
-        """The place that poses say is beyond a way, with the charts as they are when united."""
-        if self.h.scheme.displacements is None:
-            return NOWHERE
-        frame, position = self.key(number)
-        ahead = [x + d for x, d in zip(position, self.h.scheme.displacements[way], strict=True)]
-        key = self.canonical(frame, ahead)
-        found = self._at().get(key)
-        if found is None:
-            found = self.h.at.get(key)
-            if found is None or found in self.charted:
-                return NOWHERE
-        return self.find(found)
-
-    def canonical(self, frame: int, position: Sequence[int]) -> Key:
-        """The one key of a position, with the charts as they are when united."""
-        if self.periods is not None and self.periods[0] == frame:
-            return frame, reduced(position, self.periods[1])
-        return self.h.canonical(frame, position)
-
-    def _at(self) -> dict[Key, int]:
-        if len(self._placed) != len(self.charted):
-            self._placed = {key: number for number, key in self.charted.items()}
-        return self._placed
+        """The place that poses say is beyond a way."""
+        found = self.charts.beside(self.find(number), way)
+        return NOWHERE if found == NOWHERE else self.find(found)
 
     def unite(self, one: int, other: int, *, period: bool = False) -> None:
         """Take two places for one.
@@ -118,10 +92,10 @@ class Union:
             period: if they are in one chart, it closes on itself; otherwise only the ways that lead there do.
 
         Raises:
-            Contradiction: the readings become too improbable.
+            ContradictionError: the readings become too improbable.
         """
         if self.h.scheme.displacements is not None:
-            self._chart(one, other, period=period)
+            self._pairs.extend(self.charts.overlay(one, other, period=period))
         self._pairs.append((one, other))
         self._follow()
 
@@ -133,7 +107,7 @@ class Union:
                 if a != b:
                     self._merge(min(a, b), max(a, b))
                     if self.gain < self._floor:
-                        raise Contradiction
+                        raise ContradictionError
             else:
                 self._settle(self._forks.pop())
 
@@ -165,7 +139,7 @@ class Union:
         self._pairs, self._forks = [pair], []
         try:
             self._follow()
-        except Contradiction:
+        except ContradictionError:
             self._restore(saved)
             self._floor = floor
             return False
@@ -178,7 +152,7 @@ class Union:
         self.gain -= cost
         self.cost += cost
         if self.gain < self._floor:
-            raise Contradiction
+            raise ContradictionError
 
     def _state(self) -> tuple[Any, ...]:
         return (
@@ -202,13 +176,11 @@ class Union:
         other = self.find(fork.other)
         place = self.view(other)
         into = frozenset(
-            (source, index)
-            for source, index in place.into
-            if index != fork.index or self.find(source) != number
+            (source, index) for source, index in place.into if index != fork.way or self.find(source) != number
         )
         ways = list(place.ways)
         if self.h.scheme.inverse is not None:
-            back = self.h.scheme.inverse[fork.index]
+            back = self.h.scheme.inverse[fork.way]
             way = ways[back]
             if way.to != NOWHERE and self.find(way.to) == number and not way.walks:
                 ways[back] = Way(way.net, way.open, way.blocked)
@@ -258,62 +230,6 @@ class Union:
             odds = chances.odds + place.ways[index].net * chances.unit
             return min(max(odds, -chances.limit), chances.limit)
         return way_odds(self.h, number, place, index)
-
-    def _chart(self, one: int, other: int, *, period: bool) -> None:
-        """Lay the charts of both over each other; what coincides is one."""
-        a, b = self.h.places[one], self.h.places[other]
-        if a.frame != b.frame:
-            self._join(a, b)
-        elif period and a.position != b.position:
-            vector = [x - y for x, y in zip(a.position, b.position, strict=True)]
-            periods = with_period(self.h.periods.get(a.frame, ()), vector)
-            self.periods = (a.frame, periods)
-            self._coincide(a.frame, a.frame, (0,) * len(vector), periods)
-
-    def _join(self, a: Place, b: Place) -> None:
-        if a.frame > b.frame:
-            a, b = b, a
-        shift = tuple(x - y for x, y in zip(a.position, b.position, strict=True))
-        periods = self.h.periods.get(a.frame, ())
-        if more := self.h.periods.get(b.frame):
-            for row in more:
-                periods = with_period(periods, row)
-            self.periods = (a.frame, periods)
-            self._coincide(a.frame, a.frame, (0,) * len(shift), periods)
-        self.joined = self._coincide(b.frame, a.frame, shift, periods)
-
-    def _coincide(self, frame: int, onto: int, shift: tuple[int, ...], periods: Periods) -> int:
-        """Place the chart `frame` onto another (or itself); returns the number of its places."""
-        h, count = self.h, 0
-        taken = {key[1]: number for number, key in self.charted.items() if key[0] == onto}
-        for number in h.places:
-            place = h.places[number]
-            if place.frame != frame or not place.position:
-                continue
-            count += 1
-            position = reduced([x + d for x, d in zip(place.position, shift, strict=True)], periods)
-            if frame == onto and position == place.position:
-                taken.setdefault(position, number)
-                continue
-            self.charted[number] = (onto, position)
-            there = taken.get(position)
-            if there is None and (frame != onto or not periods):
-                there = h.at.get((onto, position))
-            if there is not None and there != number:
-                self._pairs.append((there, number))
-            taken.setdefault(position, number)
-        if frame == onto:
-            self._meet(onto, taken)
-        return count
-
-    def _meet(self, frame: int, taken: dict[tuple[int, ...], int]) -> None:
-        """Places that kept their position meet those that came there."""
-        for number in self.h.places:
-            place = self.h.places[number]
-            if place.frame == frame and number not in self.charted:
-                there = taken.get(place.position)
-                if there is not None and there != number:
-                    self._pairs.append((there, number))
 
 
 def sights_gain(h: Hypothesis, sensor: int, mine: SightCounts, its: SightCounts) -> float:
