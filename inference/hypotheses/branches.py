@@ -52,9 +52,8 @@ class Lead(NamedTuple):
 def branches(h: Hypothesis, percept: Percept, *, drop: float) -> Iterator[Branch]:
     """What may have happened, as far as it is within `drop` (nats) of the most probable so far."""
     walker = _Walker(h, percept)
-    best = -float("inf")
-    for branch in walker.moves(lambda: best - drop):
-        best = max(best, branch.weight)
+    for branch in walker.moves():
+        walker.floor = max(walker.floor, branch.weight - drop)
         yield branch
 
 
@@ -66,23 +65,24 @@ class _Walker:
         self.place = h.places[h.here]
         self.open = [probability(way_odds(h, h.here, self.place, way)) for way in range(h.scheme.count)]
         self.evidence: dict[int, float] = {}
+        self.floor = -float("inf")
 
-    def moves(self, floor) -> Iterator[Branch]:  # type: ignore[no-untyped-def]
+    def moves(self) -> Iterator[Branch]:
         h, action, chances = self.h, self.percept.action, self.chances
         if self.percept.told:
-            yield from self._moved(0.0, floor)
+            yield from self._moved(0.0)
             return
         astray = 0.0 if self.percept.certain else chances.astray
         each = astray / h.scheme.count
         stayed = h.weight + log(1.0 - chances.moved)
         if action is not None:
-            yield from self._walk(action, stayed + log(1.0 - astray), 0.0, floor)
+            yield from self._walk(action, stayed + log(1.0 - astray), 0.0)
         yield self._stay(stayed, astray, each)
-        if each > 0.0 and stayed + log(each) > floor():
+        if each > 0.0 and stayed + log(each) > self.floor:
             for way in range(h.scheme.count):
                 if way != action:
-                    yield from self._walk(way, stayed + log(each), 1.0, floor)
-        yield from self._moved(h.weight + log(chances.moved), floor)
+                    yield from self._walk(way, stayed + log(each), 1.0)
+        yield from self._moved(h.weight + log(chances.moved))
 
     def _stay(self, before: float, astray: float, each: float) -> Branch:
         action, fails = self.percept.action, self.chances.fails
@@ -94,26 +94,26 @@ class _Walker:
         weight = before + log(total) + self._at(self.h.here)
         return Branch(weight, self.h, NOWHERE, self.h.here, False, lost / total, failed / total, 0.0)
 
-    def _walk(self, way: int, before: float, astray: float, floor) -> Iterator[Branch]:  # type: ignore[no-untyped-def]
+    def _walk(self, way: int, before: float, astray: float) -> Iterator[Branch]:
         h, p = self.h, self.open[way] * (1.0 - self.chances.fails)
         before += log(p)
         lead = leads(h, h.here, self.place, way)
         if lead.to != NOWHERE:
             yield Branch(before + log(lead.sure) + self._at(lead.to), h, way, lead.to, False, astray, 0.0, 0.0)
         back = None if h.scheme.inverse is None else h.scheme.inverse[way]
-        if lead.new > 0.0 and before + log(lead.new) > floor():
+        if lead.new > 0.0 and before + log(lead.new) > self.floor:
             key = h.beyond(self.place, way)
             weight = before + log(lead.new) + log_predictive(h, self.percept, key, back, h.here)
             yield Branch(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
-        if lead.off > 0.0 and before + log(lead.off) > floor():
+        if lead.off > 0.0 and before + log(lead.off) > self.floor:
             weight = before + log(lead.off) + log_predictive(h, self.percept, None, back, h.here)
             yield Branch(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
 
-    def _moved(self, before: float, floor) -> Iterator[Branch]:  # type: ignore[no-untyped-def]
+    def _moved(self, before: float) -> Iterator[Branch]:
         h = self.h
         unseen = max(0.5, 0.5 * (h.counts.yes[0] - h.links))
         each = before - log(h.size + unseen)
-        if each + log(max(unseen, 1.0)) <= floor():
+        if each + log(max(unseen, 1.0)) <= self.floor:
             return
         reading = self.percept.sights[0]
         alike = h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(h.places)

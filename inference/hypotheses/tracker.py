@@ -36,7 +36,7 @@ class TrackerOptions:
     """
 
     most: int = 32
-    least: float = 1e-6
+    least: float = 1e-5
     folded: int = 2
 
 
