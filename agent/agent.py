@@ -1,9 +1,9 @@
-"""The loop that joins it all: perceive, infer, learn, grow, plan, act."""
+"""The loop that joins it all: perceive, plan, act."""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from typing import Any
@@ -11,28 +11,35 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference.filter import advance, begin
-from ..inference.message import Belief, Evidence
-from ..inference.rivals import DECISIVE, Rivals, advance_rivals, certain_of, rivals_of
-from ..model.cognitive_map import CognitiveMap
-from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
-from ..model.labels import decode, encode
-from ..model.map_state import map_arrays, restore_map
-from ..model.motions import Motions, MotionSpec
-from ..model.slices import Slice, take_slice, window_graph
-from ..planning import Plan
-from ..planning.choice import consider
-from ..planning.horizon import cut_reach
-from ..planning.outlook import Outlook
-from ..planning.preferences import Preferences
+from ..inference import DECISIVE, Belief, Rivals, advance, advance_rivals, begin, certain_of, rivals_of
+from ..model import (
+    GROWTHS,
+    CogmapError,
+    CognitiveMap,
+    FactorGraph,
+    Growth,
+    Motions,
+    MotionSpec,
+    Percept,
+    Pose,
+    Sensor,
+    Slice,
+    StaticGrowth,
+    Whereabouts,
+    map_state,
+    restore_map,
+    take_slice,
+    window_graph,
+)
+from ..planning import CHOICES, POLICIES, LocalCache, MapGuided, Plan, Planner, Preferences
+from . import storage
 from .mapper import Mapper
-from .past import past_state, restore_past, restore_rivals, rivals_state
-from .perception import perceive
-from .remembered import Choice, Wishes, choice_state, restore_choice
+from .packing import Arrays, pack, unpacked_state
+from .parts import made_of, parts_of
+from .perceiving import checked, percept_of
 from .settings import Settings
-from .state import Arrays, belief_state, restore_belief, restore_window, window_state
-from .trace import StepRecord
+from .state import Choice, GivenPreferences, State
+from .trace import StepRecord, record_of
 
 Seed = int | np.random.SeedSequence | None
 
@@ -40,62 +47,94 @@ Seed = int | np.random.SeedSequence | None
 class Agent:
     """An agent that builds its own map.
 
-    It is given observations only (`{"sight": label, "open": truth values over the actions}`) and answers with
-    actions; it starts at what it calls the origin, and never learns where that is in the world.
+    It is given observations only, what each of its sensors senses by name (`{"sight": label, "open": truth values
+    over the actions}`), and answers with actions; it starts at what it calls the origin, and never learns where that
+    is in the world.
 
     Args:
         motions: names and displacements of the actions: `world.motions`, or a mapping name -> displacement.
-        settings: every knob; see `Settings`.
+        sensors: what it senses; `Sight("sight")` and `Ways()` unless given.
+        pose: how places lie to each other; `Lattice()` unless given.
+        growth: when places are added; `PredictedGrowth()` unless given.
+        planner: how it plans: policies, terms of G, choice; `Planner()` unless given.
+        settings: every number; see `Settings`.
         seed: of the generator that breaks ties and draws policies.
 
     Attributes:
         map: what it believes the world to be.
-        settings: its settings; they never change.
-        trace: one record a step.
+        growth: its growth rule.
+        planner: its planner.
+        rng: the generator.
+        trace: one record a step that was answered.
 
     Raises:
-        CogmapError: motions or settings that make no sense.
+        CogmapError: motions, parts or settings that make no sense.
     """
 
     def __init__(
         self,
         motions: MotionSpec | Mapping[str, Sequence[int]],
         *,
+        sensors: Iterable[Sensor] | None = None,
+        pose: Pose | None = None,
+        growth: Growth | None = None,
+        planner: Planner | None = None,
         settings: Settings | None = None,
         seed: Seed = None,
     ) -> None:
-        self.settings = settings or Settings()
-        self.map = CognitiveMap(Motions.of(motions), priors=self.settings.priors)
+        self._assemble(motions, sensors, pose, growth, planner, settings or Settings(), seed)
+        self.growth.begin(self.map, step=0)
+
+    def _assemble(
+        self,
+        motions: MotionSpec | Mapping[str, Sequence[int]],
+        sensors: Iterable[Sensor] | None,
+        pose: Pose | None,
+        growth: Growth | None,
+        planner: Planner | None,
+        settings: Settings,
+        seed: Seed,
+    ) -> None:
+        """Put the parts together; the map is empty yet."""
+        self._settings = settings
+        self.growth = growth or _growth_of(settings)
+        self.planner = planner or _planner_of(settings)
+        self.map = CognitiveMap(
+            Motions.of(motions),
+            sensors=sensors,
+            pose=pose,
+            priors=settings.priors,
+            rates=settings.rates,
+            displacement=settings.filter.displacement,
+            slip=settings.filter.slip,
+        )
+        self.rng = _generator(seed)
         self.trace: list[StepRecord] = []
-        self._rng = _generator(seed)
-        self._mapper, self._outlook = Mapper(self.map, self.settings), Outlook(self.map, self.settings.look_ahead)
-        self._window: deque[Slice] = deque(maxlen=self.settings.window + 1)
-        self._pending = 0
-        self._belief: Belief | None = None
+        self._mapper = Mapper(self.map, self.growth, settings)
+        self._cache = LocalCache(self.map, settings.look_ahead)
         self._plan: Plan | None = None
-        self._choice: Choice | None = None
-        self._steps = 0
-        self._action: int | None = None
-        self._open: tuple[bool, ...] = ()
-        self._goals: dict[Hashable, float] = {}
-        self._goal_places: dict[int, float] = {}
-        self._rivals = Rivals.none(len(self.map.motions.displacements[0]))
-        self._retracted: int | None = None
-        self._mapper.wake()
+        self.planner.check(self.map.motions, settings.look_ahead)
+        dimensions = len(self.map.motions.displacements[0])
+        self._state = State(Rivals.none(dimensions), deque[Slice](maxlen=settings.window + 1))
 
     # -- the public face -----------------------------------------------------------------------------------
 
     @property
+    def settings(self) -> Settings:
+        """Its settings; they never change."""
+        return self._settings
+
+    @property
     def steps(self) -> int:
         """Observations taken in so far."""
-        return self._steps
+        return self._state.steps
 
     @property
     def belief(self) -> Belief:
         """What it believes about where it is, after the last observation."""
-        if self._belief is None:
+        if self._state.belief is None:
             raise CogmapError("agent: it has seen nothing yet; call step(observation) first")
-        return self._belief
+        return self._state.belief
 
     @property
     def certain(self) -> bool:
@@ -103,22 +142,15 @@ class Agent:
         return self.belief.certainty >= self.settings.certainty
 
     @property
-    def plan(self) -> Plan:
-        """What it considered at the last step, and what it chose; worked out again where it was loaded."""
-        if self._plan is None:
-            choice = self._last_choice()
-            self._plan = choice.of(self._planned(self._open, choice.wishes, np.random.default_rng(0)))
-        return self._plan
-
-    @property
-    def wishes(self) -> Wishes:
-        """The preferences that were in force at the last choice."""
-        return self._last_choice().wishes
+    def preferences(self) -> GivenPreferences:
+        """The preferences that are, or were, in force for `plan`."""
+        self._require_plan()
+        return self._state.preferences if self._state.choice is None else self._state.choice.preferences
 
     @property
     def window(self) -> tuple[Slice, ...]:
         """What `graph` is made of, the oldest step first."""
-        return tuple(self._window)
+        return tuple(self._state.window)
 
     @property
     def graph(self) -> FactorGraph:
@@ -150,240 +182,278 @@ class Agent:
         for place in places:
             if place not in self.map.places:
                 raise CogmapError(f"agent: no place {place!r} to prefer; places are 0 to {len(self.map.places) - 1}")
-        self._goals, self._goal_places = sights, places
+        self._state.preferences = GivenPreferences(sights, places)
 
     def step(self, observation: Mapping[str, Any]) -> int:
-        """Take in one observation and answer with the index of the next action.
+        """Take in one observation and answer with the index of the next action: `perceive`, `plan` and `act` in a row.
 
         Raises:
-            CogmapError: the observation lacks a key, or has a wrong number of doors.
+            CogmapError: the observation lacks a key, or a value is none that its sensor could have sensed.
         """
-        label, open_ = perceive(observation, self.map.motions)
-        grown = len(self.map.growth)
-        self.map.grow_time(step=self._steps)
-        sight = self.map.new_sight(label, step=self._steps)
-        evidence = self._infer(sight, open_)
-        self._remember(evidence)
-        self._learn(evidence)
-        self._choose(open_)
-        self._record(label, open_, grown)
-        self._action, self._open = self.plan.action, open_
-        self._steps += 1
-        return self.plan.action
+        self.perceive(observation)
+        return self.act()
+
+    def perceive(self, observation: Mapping[str, Any]) -> Belief:
+        """Take in one observation: infer where it is, learn, and let the map grow.
+
+        Where another action than the one answered led here, the observation says so: `taken`, by name or index.
+
+        Raises:
+            CogmapError: the observation lacks a key, a value is none that its sensor could have sensed, or nothing
+                was done since the last one.
+        """
+        state, values = self._state, checked(observation, self.map)
+        if not state.acted:
+            if "taken" not in values:
+                raise CogmapError(
+                    "agent: it has not acted on the last observation; call act(), or say what was 'taken'"
+                )
+            state.action = values["taken"]
+        state.begun, state.retracted = len(self.map.changes), None
+        self.map.grow_time(step=state.steps)
+        percept = percept_of(values, self.map, action=state.action, open_=state.open, step=state.steps)
+        self._infer(percept)
+        self._remember(percept)
+        self._learn(percept)
+        state.open, state.acted, state.choice, self._plan = percept.open, False, None, None
+        state.steps += 1
+        return self.belief
+
+    @property
+    def plan(self) -> Plan:
+        """What it considers, and what it chose; worked out when it is first asked for, and anew where it was loaded.
+
+        Raises:
+            CogmapError: it has perceived nothing yet.
+        """
+        if self._plan is None:
+            self._require_plan()
+            choice = self._state.choice
+            if choice is not None:
+                self._plan = choice.of(self._planned(choice.preferences, np.random.default_rng(0)))
+            elif self._state.acted:
+                raise CogmapError(
+                    "agent: the file has no last choice, an earlier version wrote it; call step(observation)"
+                )
+            else:
+                self._plan = self._planned(self._state.preferences, self.rng)
+                self._state.choice = Choice(self._state.preferences, tuple(self._plan.policy.tolist()))
+        return self._plan
+
+    def act(self) -> int:
+        """Answer the last observation with the index of an action: the first of the plan's policy.
+
+        Raises:
+            CogmapError: it has perceived nothing since the last action.
+        """
+        if self._state.acted:
+            raise CogmapError("agent: it has perceived nothing since its last action; call perceive(observation) first")
+        plan, state = self.plan, self._state
+        percept, sensors = state.recent[-1].percept, self.map.sensors
+        sensed = {name: sensors[name].label(reading) for name, reading in percept.readings.items() if name != "open"}
+        record = record_of(
+            state.steps - 1,
+            sensed,
+            percept.open or (),
+            self.belief,
+            plan,
+            self.map.changes.since(state.begun)[0] or (),
+            certain=self.certain,
+            retracted=state.retracted,
+        )
+        self.trace.append(record)
+        state.action, state.acted = plan.action, True
+        return plan.action
+
+    @property
+    def parts(self) -> dict[str, Any]:
+        """What it is made of, as plain JSON values: the kind of each part and its options."""
+        return parts_of(self.map, self.growth)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write everything the agent knows to an npz file (JSON header, schema version, no pickle)."""
-        from .storage import save
+        """Write everything the agent knows to an npz file (JSON header, schema version, no pickle).
 
-        save(self, path)
+        Raises:
+            CogmapError: a label or a setting cannot be written, or the folder cannot be.
+        """
+        storage.write(path, *self.state())
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> Agent:
+    def load(
+        cls,
+        path: str | PathLike[str],
+        *,
+        sensors: Iterable[Sensor] | None = None,
+        pose: Pose | None = None,
+        growth: Growth | None = None,
+    ) -> Agent:
         """The agent that `save` wrote; it walks on exactly as that one would have.
+
+        Args:
+            path: of the file.
+            sensors: new ones like those that it was made with, where some are not of this library.
+            pose: the same.
+            growth: the same.
 
         Raises:
             CogmapError: no such file, or it is no saved map, truncated, or from a newer schema.
         """
-        from .storage import load
-
-        return load(path)
+        header, arrays = storage.read(path)
+        with storage.damage(path):
+            return cls.from_state(header, arrays, sensors=sensors, pose=pose, growth=growth)
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
         """Everything that the next steps depend on: a JSON header and arrays (the trace is left out)."""
-        belief, belief_arrays = belief_state(self._belief)
-        window, window_arrays = window_state(list(self._window))
+        map_, arrays = map_state(self.map)
         header = {
             "motions": {"names": self.map.motions.names, "displacements": self.map.motions.displacements},
             "settings": self.settings.to_dict(),
-            "sights": [encode(label) for label in self.map.sights],
-            "positions": [encode(label) for label in self.map.positions],
-            "goals": [[encode(label), value] for label, value in self._goals.items()],
-            "goal_places": [[int(place), value] for place, value in self._goal_places.items()],
-            "steps": self._steps,
-            "pending": self._pending,
-            "action": self._action,
-            "open": self._open,
-            "rng": self._rng.bit_generator.state,
-            "belief": belief,
-            "rivals": rivals_state(self._rivals),
-            **past_state(self._mapper),
-            "window": window,
-            "choice": choice_state(self._choice),
+            "parts": self.parts,
+            "rng": self.rng.bit_generator.state,
+            "map": map_,
+            "state": pack(self._state, arrays, "state"),
         }
-        return header, {**map_arrays(self.map), **belief_arrays, **window_arrays}
+        return header, arrays
 
     @classmethod
-    def from_state(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> Agent:
-        """The agent that `state` took apart."""
+    def from_state(
+        cls,
+        header: Mapping[str, Any],
+        arrays: Mapping[str, NDArray[Any]],
+        *,
+        sensors: Iterable[Sensor] | None = None,
+        pose: Pose | None = None,
+        growth: Growth | None = None,
+    ) -> Agent:
+        """The agent that `state` took apart; see `load`."""
+        agent = cls.__new__(cls)
+        made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth)
         motions = dict(zip(header["motions"]["names"], header["motions"]["displacements"], strict=True))
-        agent = cls(motions, settings=Settings.from_dict(header["settings"]))
-        agent.map = CognitiveMap(Motions.of(motions), priors=agent.settings.priors)
-        labels = ([decode(label) for label in header[name]] for name in ("sights", "positions"))
-        restore_map(agent.map, arrays, *labels)
-        agent._mapper, agent._outlook = Mapper(agent.map, agent.settings), Outlook(agent.map, agent.settings.look_ahead)
-        agent._goals = {decode(label): value for label, value in header["goals"]}
-        agent._goal_places = dict(header["goal_places"])
-        agent._steps, agent._pending, agent._action = header["steps"], header["pending"], header["action"]
-        agent._open = tuple(header["open"])
-        agent._rng.bit_generator.state = header["rng"]
-        agent._rivals = restore_rivals(header["rivals"], len(agent.map.motions.displacements[0]))
-        restore_past(agent._mapper, header)
-        agent._belief = restore_belief(header["belief"], arrays)
-        agent._window.extend(restore_window(header["window"], arrays))
-        agent._choice = restore_choice(header.get("choice"))  # files of before have none
+        agent._assemble(motions, *made, None, Settings.from_dict(header["settings"]), None)
+        restore_map(agent.map, header["map"], arrays)
+        agent.rng.bit_generator.state = header["rng"]
+        agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)
         return agent
 
     def __repr__(self) -> str:
-        return f"Agent({self.map!r}, step {self._steps})"
+        return f"Agent({self.map!r}, step {self.steps})"
 
     # -- the parts of a step -------------------------------------------------------------------------------
 
-    def _infer(self, sight: int, open_: tuple[bool, ...]) -> Evidence:
-        action = self._action
-        was_open = action is not None and self._open[action]
-        evidence = Evidence(action=action, was_open=was_open, sight=sight, open=open_)
-        self._mapper.begin(self._steps, evidence)
-        if self._belief is None:
-            self._belief = begin(self.map, 0, evidence)
-        else:
-            if action is not None and was_open and self.certain:
-                self._mapper.enter(self._belief.place, action, step=self._steps)
-            self._belief = advance(self.map, self._belief.message, evidence, self.settings.filter)
-            self._doubt(evidence)
-        return evidence
+    def _infer(self, percept: Percept) -> None:
+        state = self._state
+        state.recent.append(self._mapper.moment(state.steps, percept))
+        if state.belief is None:
+            state.belief = begin(self.map, 0, percept)
+            return
+        if percept.action is not None and percept.opened and self.certain:
+            self._mapper.enter(Whereabouts(state.belief.places), percept.action, step=state.steps)
+        support = self.settings.filter.support
+        state.belief = advance(self.map, state.belief.message, percept, support=support)
+        self._doubt(percept)
 
-    def _doubt(self, evidence: Evidence) -> None:
+    def _doubt(self, percept: Percept) -> None:
         """Weigh the belief against its rivals; commit it to a new place, or take back what it taught."""
-        mapper = self._mapper
-        rivals = advance_rivals(
-            self.map, self._rivals, self.belief, evidence, displacement=self.settings.filter.displacement
-        )
-        self._retracted = None
+        state, displacement = self._state, self.settings.filter.displacement
+        rivals = advance_rivals(self.map, state.rivals, self.belief, percept, displacement=displacement)
         if len(rivals):
-            rivals = rivals.kept(rivals.since >= mapper.remembered)
+            rivals = rivals.kept(rivals.since >= state.recent[0].step)
             if len(rivals) and rivals.probability(rivals.best) >= DECISIVE:
-                self._change_mind(rivals, evidence)
+                self._change_mind(rivals, percept)
                 return
-            self._belief = replace(self.belief, doubt=rivals.doubt)
+            state.belief = replace(self.belief, doubt=rivals.doubt)
         belief = self.belief
         if self.certain and not self.map.visited[belief.place]:
-            self._rivals = rivals.joined(rivals_of(self.map, belief, step=self._steps, visits=mapper.visits_before))
-            self._belief = belief.committed()
-        else:
-            self._rivals = rivals
+            rivals = rivals.joined(rivals_of(self.map, belief, step=state.steps, visits=state.recent[-1].visits))
+            state.belief = belief.committed()
+        state.rivals = rivals
 
-    def _change_mind(self, rivals: Rivals, evidence: Evidence) -> None:
+    def _change_mind(self, rivals: Rivals, percept: Percept) -> None:
         """The best of the rivals was right: relive what happened since then where it happened."""
+        state = self._state
         since, position = int(rivals.since[rivals.best]), tuple(rivals.positions[rivals.best].tolist())
-        place = self._mapper.relive(since, position, step=self._steps)
-        self._belief = certain_of(
-            self.map, place, evidence, odds=float(rivals.odds[rivals.best]), instead_of=self.belief
-        )
-        self._window.clear()
-        self._pending, self._retracted = 0, since
-        self._rivals = rivals.kept(rivals.since < since)
-        self._goal_places = {at: value for at, value in self._goal_places.items() if at in self.map.places}
+        moments = [moment for moment in state.recent if moment.step >= since]
+        place, state.recent[-1] = self._mapper.relive(moments, position, step=state.steps)
+        odds = float(rivals.odds[rivals.best])
+        state.belief = certain_of(self.map, place, percept, odds=odds, instead_of=self.belief)
+        state.window.clear()
+        state.pending, state.retracted = 0, since
+        state.rivals = rivals.kept(rivals.since < since)
+        places = {at: value for at, value in state.preferences.places.items() if at in self.map.places}
+        state.preferences = replace(state.preferences, places=places)
 
-    def _remember(self, evidence: Evidence) -> None:
-        """Add the slice of this step to the window, with the tables as they are now."""
-        message, options = self.belief.message, self.settings.filter
-        self._window.append(
+    def _remember(self, percept: Percept) -> None:
+        """Add the slice of this step to the window, with the factors as they are now."""
+        belief, window = self.belief, self._state.window
+        message = belief.message
+        window.append(
             take_slice(
                 self.map,
-                self._window[-1] if self._window else None,
+                window[-1] if window else None,
                 (message.places, message.positions, message.mass),
-                self.belief.factors,
-                step=self._steps,
-                action=evidence.action,
-                was_open=evidence.was_open,
-                sight=evidence.sight,
-                open_=evidence.open,
-                slip=options.slip,
-                displacement=(1.0 - options.displacement, options.displacement * self.belief.examined),
+                belief.likelihoods,
+                step=self._state.steps,
+                percept=percept,
+                examined=belief.examined,
+                ahead=belief.ahead,
             )
         )
 
-    def _learn(self, evidence: Evidence) -> None:
+    def _learn(self, percept: Percept) -> None:
+        state = self._state
         if not self.certain:
-            self._pending += 1
+            state.pending += 1
             return
-        if self._pending:
-            self._mapper.catch_up(list(self._window), self._pending, step=self._steps)
-            self._pending = 0
-        self._mapper.learn(self.belief, evidence, step=self._steps)
+        if state.pending:
+            self._mapper.catch_up(list(state.window), state.pending, step=state.steps)
+            state.pending = 0
+        self._mapper.learn(self.belief, percept, step=state.steps)
 
-    def _choose(self, open_: tuple[bool, ...]) -> None:
-        wishes = Wishes(self._goals, self._goal_places)
-        self._plan = self._planned(open_, wishes, self._rng)
-        self._choice = Choice(wishes, tuple(self._plan.policy.tolist()))
+    def _require_plan(self) -> None:
+        if not self._state.steps:
+            raise CogmapError("agent: it has planned nothing yet; call step(observation) first")
 
-    def _last_choice(self) -> Choice:
-        if self._choice is not None:
-            return self._choice
-        if self._steps:
-            raise CogmapError("agent: the file has no last choice, an earlier version wrote it; call step(observation)")
-        raise CogmapError("agent: it has planned nothing yet; call step(observation) first")
-
-    def _planned(self, open_: tuple[bool, ...], wishes: Wishes, rng: np.random.Generator) -> Plan:
+    def _planned(self, preferences: GivenPreferences, rng: np.random.Generator) -> Plan:
         settings = self.settings
         places, q = self.belief.message.by_place
-        reach = cut_reach(
+        return self.planner.plan(
             self.map,
             places,
             q,
-            open_=open_,
+            open_=self._state.open or (True,) * len(self.map.motions),
             look_ahead=settings.look_ahead,
-            preferences=self._preferences(wishes),
+            rng=rng,
+            preferences=self._weighted(preferences),
+            precision=settings.precision,
             discount=settings.discount,
             information_weight=settings.information_weight,
             starts=settings.starts,
-            outlook=self._outlook,
-        )
-        return consider(
-            reach,
-            generator=settings.policies,
-            precision=settings.precision,
-            choice=settings.choice,
-            rng=rng,
-            beam=settings.beam,
+            cache=self._cache,
         )
 
-    def _preferences(self, wishes: Wishes) -> Preferences:
+    def _weighted(self, preferences: GivenPreferences) -> Preferences:
         weight = self.settings.goal_weight
         sights: dict[int, float] = {}
-        for label, value in wishes.sights.items():
+        for label, value in preferences.sights.items():
             known = self.map.sights.find(label)
             key = -1 if known is None else known
             sights[key] = max(sights.get(key, -np.inf), weight * value)
-        places = {place: weight * value for place, value in wishes.places.items()}
+        places = {place: weight * value for place, value in preferences.places.items()}
         return Preferences(sights=sights, places=places, collision_cost=self.settings.collision_cost)
 
-    def _record(self, label: Hashable, open_: tuple[bool, ...], grown: int) -> None:
-        belief, plan_ = self.belief, self.plan
-        self.trace.append(
-            StepRecord(
-                step=self._steps,
-                sight=label,
-                open=open_,
-                places=belief.places,
-                certainty=belief.certainty,
-                doubt=belief.doubt,
-                certain=self.certain,
-                moved=belief.moved,
-                dropped=belief.dropped,
-                evidence=belief.evidence,
-                complexity=belief.complexity,
-                accuracy=belief.accuracy,
-                grown=tuple(self.map.growth[grown:]),
-                learned=self._mapper.take_lessons(),
-                policy=tuple(plan_.policy.tolist()),
-                probability=float(plan_.probability[plan_.chosen]),
-                G=plan_.expected_free_energy.row(plan_.chosen),
-                policies=len(plan_.policies),
-                action=plan_.action,
-                retracted=self._retracted,
-            )
-        )
+
+def _growth_of(settings: Settings) -> Growth:
+    if settings.growth == "static":
+        if settings.places is None:
+            raise CogmapError("growth: static growth needs the size of the world; set Settings.places to 1 or more")
+        return StaticGrowth(settings.places)
+    return GROWTHS[settings.growth]()
+
+
+def _planner_of(settings: Settings) -> Planner:
+    beam = settings.policies == MapGuided.name
+    policies = MapGuided(beam=settings.beam) if beam else POLICIES[settings.policies]()
+    return Planner(policies=policies, choice=CHOICES[settings.choice]())
 
 
 def _generator(seed: Seed) -> np.random.Generator:

@@ -2,144 +2,117 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
+from typing import Any
 
-from ..inference.message import Belief, Evidence
-from ..inference.query import infer
-from ..model.cognitive_map import CognitiveMap
-from ..model.growth import growth_named
-from ..model.learning import Learner
-from ..model.lesson import Lesson
-from ..model.motions import Motions, Position
-from ..model.slices import Slice, window_graph
+import numpy as np
+
+from ..inference import Belief, infer
+from ..model import CognitiveMap, Growth, Percept, Position, Slice, Whereabouts, window_graph
 from .settings import Settings
-
-MEMORY = 50
-"""Steps that can be taken back."""
+from .state import Moment
 
 
 class Mapper:
-    """Learning and growth of one map, under one set of settings.
+    """Learning and growth of one map.
 
-    Attributes:
-        learner: teaches the map, and can take back its last steps.
-        recent: those steps and their evidence.
+    Args:
+        map_: the map.
+        growth: its growth rule.
+        settings: how certain one must be, and how much fades.
     """
 
-    def __init__(self, map_: CognitiveMap, settings: Settings) -> None:
+    def __init__(self, map_: CognitiveMap, growth: Growth, settings: Settings) -> None:
         self._map = map_
+        self._growth = growth
         self._settings = settings
-        self._growth = growth_named(settings.growth)
-        self.learner = Learner(map_, settings.rates, memory=MEMORY)
-        self.recent: deque[tuple[int, Evidence]] = deque(maxlen=MEMORY)
 
-    def wake(self) -> None:
-        """The places that exist before anything was seen."""
-        self._growth.begin(self._map, places=self._settings.places, step=0)
+    def moment(self, step: int, percept: Percept) -> Moment:
+        """The time step that begins now, to which `relive` may return."""
+        return Moment(step, self._map.changes.mark(), len(self._map.visited_places), percept)
 
-    def begin(self, step: int, evidence: Evidence) -> None:
-        """A time step begins, with this evidence."""
-        self.learner.begin(step)
-        self.recent.append((step, evidence))
+    def enter(self, belief: Whereabouts, action: int, *, step: int) -> None:
+        """Before inference: the agent took a door that was open."""
+        self._map.recall(self._growth.enter(self._map, belief, action, step=step))
 
-    @property
-    def remembered(self) -> int:
-        """The first time step that can be taken back."""
-        return self.learner.chapters[0].step
+    def learn(self, belief: Belief, percept: Percept, *, step: int) -> None:
+        """What a certain belief teaches: transitions, what was sensed, and the places behind open doors."""
+        if self._settings.forgetting:
+            self._map.transitions.forget(1.0 - self._settings.forgetting)
+        if percept.action is not None:
+            for previous, next_, weight in zip(*(part.tolist() for part in belief.pairwise), strict=True):
+                self._map.transitions.learn(previous, percept.action, next_, weight)
+        self._visit(Whereabouts(belief.places), percept.readings, belief.certainty, step=step)
 
-    @property
-    def visits_before(self) -> int:
-        """How many places were visited before this time step."""
-        return self.learner.chapters[-1].visits
+    def catch_up(self, window: Sequence[Slice], pending: int, *, step: int) -> None:
+        """Learn what was walked in the `pending` steps before the last, where the smoothed window is certain of it."""
+        waiting = window[-1 - pending : -1]
+        steps = [slice_.step for slice_ in waiting if slice_ is not window[0]]
+        graph = window_graph(self._map, window)
+        moved = "moved" if self._map.displacement else ""
+        walks = {t: [f"{name}{t - back}" for name, back in (("s", 0), ("s", 1), (moved, 0)) if name] for t in steps}
+        posterior = infer(graph, pairs=list(walks.values()), engine=self._settings.engine)
+        for slice_ in waiting:
+            q = posterior.marginal(f"s{slice_.step}")
+            if q.max() >= self._settings.certainty:
+                ranked = np.argsort(-q, kind="stable")
+                belief = Whereabouts(dict(zip(slice_.places[ranked].tolist(), q[ranked].tolist(), strict=True)))
+                self._visit(belief, slice_.percept.readings, float(q.max()), step=step)
+        at = {slice_.step: slice_ for slice_ in window}
+        for t in steps:
+            walked = posterior.joint(*walks[t])
+            walked = walked[:, :, 0] if walked.ndim > 2 else walked
+            i, j = divmod(int(walked.argmax()), walked.shape[1])
+            if walked[i, j] >= self._settings.certainty:
+                previous, next_ = int(at[t - 1].places[j]), int(at[t].places[i])
+                self._map.transitions.learn(previous, at[t].percept.action or 0, next_, float(walked[i, j]))
 
-    def relive(self, since: int, position: Position, *, step: int) -> int:
-        """Take back what was taught from time step `since` on, and teach it along the way that ends at `position`.
+    def _visit(self, belief: Whereabouts, readings: Mapping[str, Any], weight: float, *, step: int) -> None:
+        """The agent is (or was) in the most probable place of `belief`: what is sensed there, and what lies beyond.
+
+        Only the place that passed the gate learns: the prior of A_o is so small that even a hundredth of a count
+        would fix the sight of a place where the agent never was.
+        """
+        self._map.mark_visited(belief.place)
+        open_ = readings.get("open", (True,) * len(self._map.motions))  # where nothing senses ways, all may be open
+        self._map.recall(self._growth.look(self._map, belief, open_, step=step))
+        self._map.learn(belief.place, readings, weight)
+
+    def relive(self, moments: Sequence[Moment], position: Position, *, step: int) -> tuple[int, Moment]:
+        """Take back what was taught in these last steps, and teach it along the way that ends at `position`.
 
         Returns:
-            The place there. What the present step has to teach is left to `learn`.
+            The place there, and the present step anew. What that has to teach is left to `learn`.
         """
-        happened = [evidence for then, evidence in self.recent if then >= since]
-        self.learner.take_back(since, step=step)
-        place = self._place_at(_way_back(self._map.motions, happened, position), step=step)
+        happened = [moment.percept for moment in moments]
+        self._map.take_back(moments[0].mark, step=step)
+        present = self.moment(step, happened[-1])
+        place = self._place_at(self._way_back(happened, position), step=step)
         for now, then in pairwise(happened):
-            self._visit(place, now.sight, now.open, 1.0, step=step)
+            self._visit(Whereabouts({place: 1.0}), now.readings, 1.0, step=step)
             place = self._walk(place, then, step=step)
-        return place
+        return place, present
 
-    def _walk(self, place: int, then: Evidence, *, step: int) -> int:
+    def _walk(self, place: int, then: Percept, *, step: int) -> int:
         """Where the action of `then` led from `place`."""
         action = then.action or 0
-        if action == self._map.motions.stay or not then.was_open:
+        if action == self._map.motions.stay or not then.opened:
             return place
-        self.enter(place, action, step=step)
+        self.enter(Whereabouts({place: 1.0}), action, step=step)
         there = self._map.beyond(place, action)
         assert there is not None  # an open door was just looked at, or entered
-        self.learner.transition(place, action, there, 1.0)
+        self._map.transitions.learn(place, action, there, 1.0)
         return there
 
     def _place_at(self, position: Position, *, step: int) -> int:
         place = self._map.place_at(position)
         return self._map.new_place(position, step=step) if place is None else place
 
-    def take_lessons(self) -> tuple[Lesson, ...]:
-        """Which counts changed since the last call."""
-        return self.learner.take_lessons()
-
-    def enter(self, place: int, action: int, *, step: int) -> None:
-        """Before inference: the agent took a door of `place` that was open."""
-        self._recall(self._growth.enter(self._map, place, action, step=step))
-
-    def learn(self, belief: Belief, evidence: Evidence, *, step: int) -> None:
-        """What a certain belief teaches: transitions, sight, position, doors, and the places behind them."""
-        if self._settings.forgetting:
-            self.learner.forget(1.0 - self._settings.forgetting)
-        if evidence.action is not None:
-            for previous, next_, weight in zip(*(part.tolist() for part in belief.walks), strict=True):
-                self.learner.transition(previous, evidence.action, next_, weight)
-        self._visit(belief.place, evidence.sight, evidence.open, belief.certainty, step=step)
-
-    def catch_up(self, window: Sequence[Slice], pending: int, *, step: int) -> None:
-        """Learn what was walked in the `pending` steps before the last, where the smoothed window is certain of it."""
-        waiting = window[-1 - pending : -1]
-        steps = [slice_.step for slice_ in waiting if slice_ is not window[0]]
-        walks = [(f"s{t}", f"s{t - 1}", f"moved{t}") for t in steps]
-        posterior = infer(window_graph(self._map, window), pairs=walks, engine=self._settings.engine)
-        for slice_ in waiting:
-            q = posterior.marginal(f"s{slice_.step}")
-            if q.max() < self._settings.certainty:
-                continue
-            place, weight = int(slice_.places[q.argmax()]), float(q.max())
-            self._visit(place, self._map.sights.index(slice_.sight), slice_.open, weight, step=step)
-        at = {slice_.step: slice_ for slice_ in window}
-        for t in steps:
-            walked = posterior.joint(f"s{t}", f"s{t - 1}", f"moved{t}")[:, :, 0]
-            i, j = divmod(int(walked.argmax()), walked.shape[1])
-            if walked[i, j] >= self._settings.certainty:
-                previous, next_ = int(at[t - 1].places[j]), int(at[t].places[i])
-                self.learner.transition(previous, at[t].action or 0, next_, float(walked[i, j]))
-
-    def _visit(self, place: int, sight: int, open_: Sequence[bool], weight: float, *, step: int) -> None:
-        """The agent is (or was) in `place`: its sight, position and doors, and what lies behind them.
-
-        Only the place that passed the gate learns: the prior of A_o is so small that even a hundredth of a count
-        would fix the sight of a place where the agent never was.
-        """
-        self._map.mark_visited(place)
-        self.learner.sight(place, sight, weight)
-        self.learner.position(place, int(self._map.position_index[place]), weight)
-        self._recall(self._growth.look(self._map, place, open_, step=step))
-        self.learner.doors(place, open_, weight)
-
-    def _recall(self, places: Sequence[int]) -> None:
-        for place in places:
-            self.learner.recall(place)
-
-
-def _way_back(motions: Motions, happened: Sequence[Evidence], position: Position) -> Position:
-    """Where the walk began that ended at `position`."""
-    for evidence in happened[:0:-1]:
-        if evidence.was_open:
-            position = motions.move(position, motions.inverse[evidence.action or 0])
-    return position
+    def _way_back(self, happened: Sequence[Percept], position: Position) -> Position:
+        """Where the walk began that ended at `position`."""
+        motions = self._map.motions
+        for percept in happened[:0:-1]:
+            if percept.opened:
+                position = motions.move(position, motions.inverse[percept.action or 0])
+        return position

@@ -1,90 +1,103 @@
-"""What must be kept of an agent so that it walks on exactly: a JSON header and arrays."""
+"""All that the next steps of an agent depend on besides its map."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import fields
-from typing import Any
+from collections import deque
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..inference.message import Belief, Message
-from ..model.errors import CogmapError
-from ..model.labels import decode, encode
-from ..model.slices import Slice
-
-Arrays = dict[str, NDArray[Any]]
-
-_SCALARS = ("evidence", "moved", "dropped", "examined", "doubt")
+from ..inference import Belief, Rivals
+from ..model import STEPS, CogmapError, Percept, Slice
+from ..planning import Plan
 
 
-def belief_state(belief: Belief | None) -> tuple[dict[str, Any] | None, Arrays]:
-    """A belief as header and arrays."""
-    if belief is None:
-        return None, {}
-    header = {name: getattr(belief, name) for name in _SCALARS}
-    message = belief.message
-    parts = [message.places, message.positions, message.mass, *belief.walks, belief.log_likelihood]
-    return header, {f"belief.{i}": part for i, part in enumerate(parts)}
+@dataclass(frozen=True, slots=True)
+class GivenPreferences:
+    """Log preferences over all others, in nats (before `goal_weight`); none explores.
 
-
-def restore_belief(header: Mapping[str, Any] | None, arrays: Mapping[str, NDArray[Any]]) -> Belief | None:
-    """The belief that `belief_state` took apart.
-
-    Raises:
-        CogmapError: the arrays do not fit one another.
-        KeyError: an array is missing.
+    Attributes:
+        sights: by label.
+        places: by number of the place in the map.
     """
-    if header is None:
-        return None
-    parts = [arrays[f"belief.{i}"] for i in range(7)]
-    if any(part.ndim != 1 or part.dtype.kind != kind for part, kind in zip(parts, "iifiiff", strict=True)):
-        raise CogmapError("belief: an array is no list of numbers of its kind; save the agent again")
-    lengths = [len(part) for part in parts]
-    if len({*lengths[:3], lengths[6]}) > 1 or len(set(lengths[3:6])) > 1 or not abs(parts[2].sum() - 1.0) < 1e-6:
-        raise CogmapError("belief: the masses do not belong to its places and positions; save the agent again")
-    if not (np.isfinite(parts[6]).all() and (parts[6] <= 1e-9).all()):
-        raise CogmapError("belief: a likelihood is no probability; save the agent again")
-    message, walks = Message(*parts[:3]), (parts[3], parts[4], parts[5])
-    return Belief(message=message, walks=walks, log_likelihood=parts[6], **header)
+
+    sights: Mapping[Hashable, float] = field(default_factory=dict[Hashable, float])
+    places: Mapping[int, float] = field(default_factory=dict[int, float])
 
 
-def window_state(window: Sequence[Slice]) -> tuple[list[dict[str, Any]], Arrays]:
-    """The slices of the window as headers and arrays."""
-    headers: list[dict[str, Any]] = []
-    arrays: Arrays = {}
-    for i, slice_ in enumerate(window):
-        header: dict[str, Any] = {}
-        for field in fields(Slice):
-            value = getattr(slice_, field.name)
-            if isinstance(value, np.ndarray):
-                arrays[f"window.{i}.{field.name}"] = value
-            else:
-                header[field.name] = encode(value)
-        headers.append(header)
-    return headers, arrays
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """What cannot be worked out again of a choice: the preferences then in force, and how ties and draws fell.
 
-
-def restore_window(headers: Sequence[Mapping[str, Any]], arrays: Mapping[str, NDArray[Any]]) -> list[Slice]:
-    """The slices that `window_state` took apart.
-
-    Raises:
-        CogmapError: an array does not fit the places and positions of its slice.
-        KeyError: an array is missing.
+    Attributes:
+        preferences: when it was made.
+        policy: the action indices of the policy that was chosen.
     """
-    for i in range(len(headers)):
-        n, m = (arrays[f"window.{i}.{name}"].shape for name in ("places", "positions"))
-        joint, arrival = (arrays[f"window.{i}.{name}"].shape for name in ("joint", "arrival"))
-        if len(n) != 1 or joint != (*n, *m) or arrival != n:
-            raise CogmapError(f"window: slice {i} does not fit its places and positions; save the agent again")
-    names = [field.name for field in fields(Slice)]
-    return [
-        Slice(
-            **{
-                name: decode(header[name]) if name in header else arrays[f"window.{i}.{name}"]  # type: ignore[arg-type]
-                for name in names
-            }
-        )
-        for i, header in enumerate(headers)
-    ]
+
+    preferences: GivenPreferences
+    policy: tuple[int, ...]
+
+    def of(self, plan: Plan) -> Plan:
+        """The plan with this choice.
+
+        Raises:
+            CogmapError: the policy is not one of its.
+        """
+        if plan.policies.shape[1] == len(self.policy):
+            found = np.flatnonzero((plan.policies == self.policy).all(axis=1))
+            if len(found):
+                return replace(plan, chosen=int(found[0]), action=self.policy[0])
+        raise CogmapError("agent: its last plan does not come out the same with this version; call step(observation)")
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A time step that can be taken back.
+
+    Attributes:
+        step: the time step.
+        mark: of the log of changes, before anything was learned from it.
+        visits: number of visited places then.
+        percept: what it brought.
+    """
+
+    step: int
+    mark: int
+    visits: int
+    percept: Percept
+
+
+@dataclass(slots=True)
+class State:
+    """One record of where an agent is in its life.
+
+    Attributes:
+        rivals: of its belief.
+        window: the last steps as slices; as many as its length allows.
+        steps: observations taken in so far.
+        acted: whether it has answered the last of them.
+        action: what it answered; None before the first.
+        open: for each action whether its way was sensed open at the last step; None where nothing senses that.
+        pending: steps that wait to be learned from.
+        belief: after the last observation.
+        preferences: what it prefers now.
+        choice: its last choice.
+        recent: the steps that can be taken back.
+        begun: where the log of changes was when the present step began.
+        retracted: the step since which it found at the present one to have been elsewhere; or None.
+    """
+
+    rivals: Rivals
+    window: deque[Slice]
+    steps: int = 0
+    acted: bool = True
+    action: int | None = None
+    open: tuple[bool, ...] | None = None
+    pending: int = 0
+    belief: Belief | None = None
+    preferences: GivenPreferences = field(default_factory=GivenPreferences)
+    choice: Choice | None = None
+    recent: deque[Moment] = field(default_factory=lambda: deque[Moment](maxlen=STEPS))
+    begun: int = 0
+    retracted: int | None = None

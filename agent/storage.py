@@ -7,59 +7,65 @@ import struct
 import tokenize
 import zipfile
 import zlib
+from collections.abc import Generator
+from contextlib import contextmanager
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.errors import CogmapError
-from ..model.files import write_through
+from ..model import CogmapError, write_through
+from .parts import MissingPart
+from .schema_2 import from_schema_2
 
-if TYPE_CHECKING:
-    from .agent import Agent
-
-SCHEMA = 2
-"""Version of the layout of the file."""
+SCHEMA, OLDEST = 3, 2
+"""Version of the layout of the file, and the oldest that can be read."""
 
 FORMAT = "cogmap agent"
 
 
-def save(agent: Agent, path: str | PathLike[str]) -> None:
-    """Write the agent; the file is replaced whole, or not at all.
+def write(path: str | PathLike[str], header: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> None:
+    """Write an agent's state; the file is replaced whole, or not at all.
 
     Raises:
         CogmapError: a label or a setting cannot be written, or the folder cannot be.
     """
-    header, arrays = agent.state()
     header = {"format": FORMAT, "schema": SCHEMA, "version": _version(), **header}
     packed = np.frombuffer(_json(header).encode(), dtype=np.uint8)
 
-    def write(target: Path) -> None:
+    def fill(target: Path) -> None:
         with target.open("wb") as file:
             np.savez(file, header=packed, **arrays)  # pyright: ignore[reportArgumentType]
 
-    write_through(Path(path), write)
+    write_through(Path(path), fill)
 
 
-def load(path: str | PathLike[str]) -> Agent:
-    """The agent in the file.
+def read(path: str | PathLike[str]) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Header and arrays of the file, in the present schema.
 
     Raises:
         CogmapError: no such file, no saved agent, truncated, or written by a newer version.
     """
-    from .agent import Agent
-
     arrays = _read(Path(path))
     header = _header(Path(path), arrays)
+    if header["schema"] == 2:
+        with damage(path):
+            return from_schema_2(header, arrays)
+    return header, arrays
+
+
+@contextmanager
+def damage(path: str | PathLike[str]) -> Generator[None]:
+    """What goes wrong within means that the file is damaged."""
     try:
-        agent = Agent.from_state(header, arrays)
-        _check(agent)
-    except (AttributeError, ArithmeticError, LookupError, TypeError, ValueError) as error:
+        yield
+    except MissingPart:
+        raise
+    except (AssertionError, AttributeError, ArithmeticError, LookupError, TypeError, ValueError) as error:
         raise CogmapError(f"load: {path} is damaged ({type(error).__name__}: {error}); save the agent again") from error
-    return agent
 
 
 def read_header(path: str | PathLike[str]) -> dict[str, Any]:
@@ -89,18 +95,6 @@ def _plain(value: object) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     raise TypeError(f"cannot write {value!r} of type {type(value).__name__}")
-
-
-def _check(agent: Agent) -> None:
-    """Whether belief and window are about the map."""
-    for variable in agent.graph.variables:  # its factors check their shapes
-        if variable.name.startswith("s") and not all(place in agent.map.places for place in variable.domain):
-            raise CogmapError("the window is about places that the map does not have")
-    if agent.steps:
-        message = agent.belief.message
-        for numbers, count in ((message.places, len(agent.map.places)), (message.positions, len(agent.map.positions))):
-            if numbers.min() < 0 or numbers.max() >= count:
-                raise CogmapError("the belief is about places that the map does not have")
 
 
 def _read(path: Path) -> dict[str, NDArray[Any]]:
@@ -137,8 +131,8 @@ def _header(path: Path, arrays: dict[str, NDArray[Any]]) -> dict[str, Any]:
         raise CogmapError(f"load: {path} is no saved agent (no header); give a file that save wrote") from error
     if schema < 0:
         raise CogmapError(f"load: {path} is a {header['format']!r}, no saved agent; give a file that save wrote")
-    if schema < SCHEMA:
-        raise CogmapError(f"load: {path} has schema {schema}, older than {SCHEMA}; explore and save again")
+    if schema < OLDEST:
+        raise CogmapError(f"load: {path} has schema {schema}, older than {OLDEST}; explore and save again")
     if schema > SCHEMA:
         raise CogmapError(f"load: {path} has schema {schema}, newer than {SCHEMA}; update cogmap to read it")
     return header

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
-from dataclasses import dataclass
+from collections.abc import Hashable, Iterable, Mapping
+from dataclasses import dataclass, field
 
-from ..model.growth_log import GrowthEvent
-from ..model.lesson import Lesson
+from ..inference import Belief
+from ..model import Entry, GrowthEvent, ParameterUpdate, updates
+from ..planning import Plan, Term
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +16,7 @@ class StepRecord:
 
     Attributes:
         step: the time step, from 0.
-        sight: label of what was seen.
+        sight: label of what the sensor `sight` saw; None where there is none.
         open: for each action, whether its way was sensed open.
         places: Q(s_t), the most probable first.
         certainty: the first of them.
@@ -31,8 +32,10 @@ class StepRecord:
         policy: the chosen policy, by action index.
         probability: its P(policy).
         G: its expected free energy, term by term, and their sum under `G`, in nats.
+        terms: what G is the sum of.
         policies: how many policies were considered.
         action: the action taken.
+        sensed: label of what each sensor but that of the ways sensed, by its name.
         retracted: the step since which it found to have been elsewhere, taking back what it had learned; or None.
     """
 
@@ -49,15 +52,56 @@ class StepRecord:
     complexity: float
     accuracy: float
     grown: tuple[GrowthEvent, ...]
-    learned: tuple[Lesson, ...]
+    learned: tuple[ParameterUpdate, ...]
     policy: tuple[int, ...]
     probability: float
     G: dict[str, float]
+    terms: tuple[Term, ...]
     policies: int
     action: int
     retracted: int | None = None
+    sensed: Mapping[str, Hashable] = field(default_factory=dict[str, Hashable])
 
     @property
     def free_energy(self) -> float:
         """F = complexity - accuracy (eq. 3), in nats."""
         return self.complexity - self.accuracy
+
+
+def record_of(
+    step: int,
+    sensed: Mapping[str, Hashable],
+    open_: tuple[bool, ...],
+    belief: Belief,
+    plan: Plan,
+    entries: Iterable[Entry],
+    *,
+    certain: bool,
+    retracted: int | None,
+) -> StepRecord:
+    """The record of a step; `entries` are those of the log of changes since it began."""
+    entries = list(entries)
+    return StepRecord(
+        step=step,
+        sight=sensed.get("sight"),
+        open=open_,
+        places=belief.places,
+        certainty=belief.certainty,
+        doubt=belief.doubt,
+        certain=certain,
+        moved=belief.moved,
+        dropped=belief.dropped,
+        evidence=belief.evidence,
+        complexity=belief.complexity,
+        accuracy=belief.accuracy,
+        grown=tuple(entry for entry in entries if isinstance(entry, GrowthEvent)),
+        learned=tuple(updates(entries)),
+        policy=tuple(plan.policy.tolist()),
+        probability=float(plan.probability[plan.chosen]),
+        G=plan.expected_free_energy.row(plan.chosen),
+        terms=plan.expected_free_energy.terms,
+        policies=len(plan.policies),
+        action=plan.action,
+        retracted=retracted,
+        sensed=sensed,
+    )

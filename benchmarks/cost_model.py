@@ -22,11 +22,9 @@ from typing import Any
 
 import numpy as np
 from cogmap.agent import Agent, Settings
-from cogmap.agent import agent as agent_module
 from cogmap.inference.filter import FEW
-from cogmap.planning import Reach
-from cogmap.planning import choice as choice_module
-from cogmap.planning.prediction import predictor
+from cogmap.planning import Choice, LocalModel, MapGuided
+from cogmap.planning import planner as planner_module
 from cogmap.planning.prefixes import Prefixes, prefixes_of
 from cogmap.worlds import MazeEnv, labyrinth, load_world
 from known import known_agent
@@ -40,10 +38,10 @@ PARTS: dict[str, tuple[Any, str]] = {
     "infer": (Agent, "_infer"),
     "window": (Agent, "_remember"),
     "learn and grow": (Agent, "_learn"),
-    "plan: tables": (agent_module, "cut_reach"),
-    "plan: policies": (choice_module, "_generator"),
-    "plan: rollout": (choice_module, "evaluate"),
-    "plan: choice": (choice_module, "choose"),
+    "plan: tables": (planner_module, "local_model"),
+    "plan: policies": (MapGuided, "make"),
+    "plan: rollout": (planner_module, "evaluate"),
+    "plan: choice": (Choice, "choose"),
     "record": (Agent, "_record"),
 }
 """Each part of a step, and the function that does it."""
@@ -60,9 +58,7 @@ class Clocks:
         for part, (owner, name) in PARTS.items():
             function = getattr(owner, name)
             self._were.append((owner, name, function))
-            setattr(
-                owner, name, self._generators(part, function) if name == "_generator" else self._timed(part, function)
-            )
+            setattr(owner, name, self._timed(part, function))
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -78,9 +74,6 @@ class Clocks:
                 self.spent[part] += time.perf_counter() - begin
 
         return timed
-
-    def _generators(self, part: str, function: Callable[..., Any]) -> Callable[..., Any]:
-        return lambda *given: self._timed(part, function(*given))
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,24 +129,23 @@ PLANNING, INFERENCE = (0, 1, 2, 3), (0, 4, 5)
 
 def causes(agent: Agent) -> list[float]:
     """How much there was of each of `CAUSES` at the last step."""
-    reach, map_, belief = agent.plan.reach, agent.map, agent.belief
-    visits = visits_of(reach, prefixes_of(agent.plan.policies))
+    model, map_, belief = agent.plan.model, agent.map, agent.belief
+    visits = visits_of(model, prefixes_of(agent.plan.policies))
     visited = len(map_.visited_places)
-    showing = len(map_.visited_with(map_.sights.index(agent.trace[-1].sight))[0])
+    showing = len(map_.sights_sensed[0].candidates(map_.sights.index(agent.trace[-1].sight))[0])
     candidates = (showing if 2 * showing + FEW < visited else visited) if belief.examined else 0
-    levels, places = agent.plan.policies.shape[1], len(reach.places)
+    levels, places = agent.plan.policies.shape[1], len(model.places)
     return [1.0, levels, 1e-3 * places, 1e-3 * visits, float(belief.examined), 1e-3 * candidates]
 
 
-def visits_of(reach: Reach, tree: Prefixes) -> int:
+def visits_of(model: LocalModel, tree: Prefixes) -> int:
     """Pairs of a prefix and a place that it may have visited."""
-    predict = predictor(reach.B)
-    belief = np.zeros((len(tree), len(reach.places)))
+    belief = np.zeros((len(tree), len(model.places)))
     visited = np.zeros(belief.shape, dtype=np.bool_)
-    belief[0] = reach.belief
+    belief[0] = model.belief
     for above, begin, end in tree.levels:
         parent = tree.parent[begin:end]
-        belief[begin:end] = predict(belief[above:begin], parent - above, tree.action[begin:end])
+        belief[begin:end] = model.B.predicted(belief[above:begin], parent - above, tree.action[begin:end])
         visited[begin:end] = visited[parent] | (belief[begin:end] > 0.0)
     return int(visited.sum())
 
@@ -222,7 +214,7 @@ def arithmetic(runs: int) -> Row:
     many: list[float] = []
     for seed in range(runs):
         for agent in exploring(seed, steps=100):
-            (outcomes, places), kinds = agent.plan.reach.A.shape, len(agent.plan.reach.motions)
+            (outcomes, places), kinds = agent.plan.model.A.shape, len(agent.plan.model.motions)
             prefixes = len(prefixes_of(agent.plan.policies))
             many.append(prefixes * places * (kinds * places + outcomes + kinds + 8))
     profile = cProfile.Profile()

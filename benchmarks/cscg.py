@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 from cogmap.baselines import CscgAgent, CscgSettings
-from cogmap.experiments import explore_many, workers
+from cogmap.experiments import Parts, explore_many, workers
 from cogmap.worlds import GRID, MAZES, MazeEnv
 from machine import json_path, write_json
 
@@ -41,7 +41,7 @@ def readings(mazes: list[str], runs: int, jobs: int) -> list[Row]:
             for agent in ("cscg", "cscg_pose"):
                 for name, cscg in READINGS.items():
                     done = explore_many(
-                        MAZES[maze], runs=runs, agent=agent, cscg=cscg, max_steps=MOST, executor=executor
+                        MAZES[maze], runs=runs, agent=Parts(agent, cscg=cscg), max_steps=MOST, executor=executor
                     )
                     steps = [run.steps_to_learn for run in done]
                     rows.append(

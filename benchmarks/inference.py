@@ -2,6 +2,7 @@
 
     python benchmarks/inference.py
     python benchmarks/inference.py --windows 10 --supports 5 10 20 40 --json inference.json
+    python benchmarks/inference.py --networks FOLDER     published networks instead, see networks.py
 
 The graphs are those that an agent emits when it is lost: every one of `support` places of a hall that it has
 walked through, all of one sight, holds mass at each of the `window` steps. What is asked is what learning after
@@ -16,10 +17,10 @@ from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
+import networks
 import numpy as np
 from cogmap.inference import infer
-from cogmap.inference.filter import factors
-from cogmap.model import CognitiveMap, FactorGraph, Learner, Motions, Rates, Slice, take_slice, window_graph
+from cogmap.model import CognitiveMap, FactorGraph, Motions, Percept, Slice, take_slice, window_graph
 from cogmap.worlds import GRID
 from machine import json_path, write_json
 
@@ -31,15 +32,13 @@ def learned_hall(places: int) -> CognitiveMap:
     """The map of a hall of `places` rooms, `ROWS` rows or fewer, one sight, every door sensed and walked."""
     motions = Motions.of(GRID)
     map_ = CognitiveMap(motions)
-    map_.new_sight("grey", step=0)
+    map_.sensors["sight"].read("grey", step=0)
     for room in np.ndindex(-(-places // ROWS), ROWS):
         if len(map_.places) < places:
             map_.new_place((int(room[0]), int(room[1])), step=0)
-    learner = Learner(map_, Rates())
     for place in map_.places:
         map_.mark_visited(place)
-        learner.sight(place, 0, 1.0)
-        learner.doors(place, doors(map_, place), 1.0)
+        map_.learn(place, {"sight": 0, "open": tuple(doors(map_, place))}, 1.0)
     return map_
 
 
@@ -54,23 +53,22 @@ def lost_window(map_: CognitiveMap, steps: int, rng: np.random.Generator) -> lis
     """Slices of an agent that walks at random and may be anywhere, the prior's slice first."""
     places = np.arange(len(map_.places))
     anywhere = (places, map_.position_index.copy(), np.full(len(places), 1.0 / len(places)))
-    place, action, was_open = int(rng.integers(len(places))), None, True
+    place, action = int(rng.integers(len(places))), None
     window: list[Slice] = []
     for step in range(steps + 1):
-        open_ = doors(map_, place)
+        open_ = tuple(doors(map_, place))
+        percept = Percept(action, True, {"sight": 0, "open": open_})
+        stays = 0.0 if action is None else map_.pose.stays(action, opened=True)
         window.append(
             take_slice(
                 map_,
                 window[-1] if window else None,
                 anywhere,
-                factors(map_, places, 0, open_),
+                map_.likelihoods(places, percept),
                 step=step,
-                action=action,
-                was_open=was_open,
-                sight=0,
-                open_=open_,
-                slip=1e-4,
-                displacement=(1.0 - 1e-4, 1e-4),
+                percept=percept,
+                examined=True,
+                ahead=None if action is None else map_.transitions.predict(places, action, percept, stays=stays),
             )
         )
         action = int(rng.choice(np.flatnonzero(open_)))
@@ -116,12 +114,16 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--engines", nargs="+", default=list(ENGINES), choices=ENGINES)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--json", type=json_path)
+    parser.add_argument("--networks", nargs=argparse.REMAINDER, help="a folder of networks, and options of networks.py")
     return parser.parse_args(given)
 
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
     asked = _arguments(given)
+    if asked.networks is not None:
+        networks.main(asked.networks)
+        return
     print("milliseconds a window, median of", asked.runs)
     print("window  support " + "".join(f"{engine:>9}" for engine in asked.engines) + "   log Z differs by")
     rows: list[dict[str, Any]] = []

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cogmap.agent import Agent, Settings
-from cogmap.model import Learner
-from cogmap.model.growth import PredictedGrowth
+from cogmap.model import Whereabouts
 from cogmap.worlds import GRID, Maze, MazeEnv, Position
 
 
@@ -16,24 +15,19 @@ def known_agent(maze: Maze, start: Position, *, settings: Settings | None = None
     It has taken no step yet: its first observation must be that of `start`.
     """
     agent = Agent(GRID, settings=settings, seed=seed)
-    map_, rates = agent.map, agent.settings.rates
-    learner, growth, world = Learner(map_, rates), PredictedGrowth(), MazeEnv(maze)
+    map_, world = agent.map, MazeEnv(maze)
     world.reset(options={"start": start})
     place = 0
     for step, (action, room) in enumerate(depth_first(maze, start)):
-        learner.begin(step)
         if action is not None:
             before, place = place, map_.place_at((room[0] - start[0], room[1] - start[1])) or 0
-            learner.transition(before, action, place, 1.0)
+            map_.transitions.learn(before, action, place, 1.0)
         observation = world.displace(room)
-        open_ = observation["open"].tolist()
+        values = {name: sensor.check(observation[name]) for name, sensor in map_.sensors.items()}
         map_.mark_visited(place)
-        learner.sight(place, map_.new_sight(observation["sight"], step=step), 1.0)
-        learner.position(place, int(map_.position_index[place]), 1.0)
-        for new in growth.look(map_, place, open_, step=step):
-            learner.recall(new)
-        learner.doors(place, open_, 1.0)
-        learner.take_lessons()
+        map_.recall(agent.growth.look(map_, Whereabouts({place: 1.0}), values["open"], step=step))
+        readings = {name: sensor.read(values[name], step=step) for name, sensor in map_.sensors.items()}
+        map_.learn(place, readings, 1.0)
     return agent
 
 

@@ -19,9 +19,7 @@ from unittest.mock import patch
 import numpy as np
 from cogmap.agent import Agent, Settings
 from cogmap.baselines import FrontierAgent
-from cogmap.experiments import Truth, Walker, kidnap
-from cogmap.experiments.exploring import default_steps, draw_start
-from cogmap.experiments.session import explored
+from cogmap.experiments import Truth, draw_start, explored, kidnap
 from cogmap.model import Priors
 from cogmap.worlds import (
     GRID,
@@ -160,7 +158,7 @@ def shut_out(maze: Maze, seed: int) -> tuple[bool, bool]:
 
     Answers whether it was certain and right after each, and whether it stayed at the goal within six steps a room.
     """
-    session = explored("moves", maze, settings=None, seed=seed, most=default_steps(maze))
+    session = explored("moves", maze, seed)
     agent, world, rng = session.agent, session.world, np.random.default_rng(seed)
     goal = maze.rooms[int(rng.integers(len(maze.rooms)))]
     place = agent.map.place_at((goal[0] - session.start[0], goal[1] - session.start[1]))
@@ -194,7 +192,7 @@ def _way_round(maze: Maze, closed: list[Position], goal: Position) -> bool:
 
 def search_rows(name: str, maze: Maze, runs: int) -> list[Row]:
     """Steps until a label is first seen, mean over all labels, and the same over all rooms."""
-    walkers: dict[str, Callable[[np.random.SeedSequence], Walker]] = {
+    walkers: dict[str, Callable[[np.random.SeedSequence], Agent | FrontierAgent]] = {
         "cogmap": lambda seed: Agent(GRID, seed=int(seed.generate_state(1)[0])),
         "frontier": lambda seed: FrontierAgent(GRID, seed=seed),
     }
@@ -207,7 +205,7 @@ def search_rows(name: str, maze: Maze, runs: int) -> list[Row]:
     return rows
 
 
-def first_seen(maze: Maze, walker: Walker, start: Position) -> tuple[float, float]:
+def first_seen(maze: Maze, walker: Agent | FrontierAgent, start: Position) -> tuple[float, float]:
     """Mean over the labels, and over the rooms, of the step at which a walker that explores first meets them."""
     world = MazeEnv(maze)
     observation, _ = world.reset(options={"start": start})

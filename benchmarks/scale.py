@@ -29,8 +29,7 @@ import numpy as np
 from cogmap.agent import Agent, Settings
 from cogmap.baselines import FrontierAgent
 from cogmap.experiments import Truth
-from cogmap.planning import CHOICES
-from cogmap.planning.outlook import Outlook
+from cogmap.planning import CHOICES, LocalCache
 from cogmap.worlds import Maze, MazeEnv, Position, labyrinth
 from known import known_agent
 from machine import json_path, write_json
@@ -152,12 +151,11 @@ def save(rooms: int, asked: argparse.Namespace) -> Row:
 
 def _plan_everywhere(agent: Agent) -> None:
     """Let it keep what a plan keeps of a place, of all places, and look up a sight."""
-    places, outlook = np.arange(len(agent.map.places)), Outlook(agent.map, agent.settings.look_ahead)
+    places, cache = np.arange(len(agent.map.places)), LocalCache(agent.map, agent.settings.look_ahead)
     for part in np.array_split(places, max(1, len(places) // 1000)):
-        outlook.doors(part)
-        outlook.sights(part)
-    agent.map.visited_with(0)
-    agent._outlook = outlook
+        cache.rows(part)
+    agent.map.sensors["sight"].candidates(0)
+    agent._cache = cache
 
 
 def _seconds(call: Callable[[], object]) -> float:

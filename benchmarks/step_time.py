@@ -23,7 +23,7 @@ from typing import Any
 
 from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError
-from cogmap.planning import GENERATORS
+from cogmap.planning import POLICIES
 from cogmap.worlds import load_world
 from machine import json_path, write_json
 
@@ -92,7 +92,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--steps", type=int, default=100)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--look-ahead", type=int, nargs="+", default=[6])
-    parser.add_argument("--policies", nargs="+", default=["map_guided"], choices=[*GENERATORS, "all"])
+    parser.add_argument("--policies", nargs="+", default=["map_guided"], choices=[*POLICIES, "all"])
     parser.add_argument("--seconds", type=float, default=60.0, help="of a run, at most")
     parser.add_argument("--json", type=json_path)
     parser.add_argument("--peak-only", action="store_true", help="walk once and print megabytes")
@@ -102,7 +102,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
     asked = _arguments(given)
-    names = list(GENERATORS) if "all" in asked.policies else asked.policies
+    names = list(POLICIES) if "all" in asked.policies else asked.policies
     if asked.peak_only:
         settings = Settings(look_ahead=asked.look_ahead[0], policies=names[0])
         walk(asked.world, asked.steps, settings, 0, asked.seconds)

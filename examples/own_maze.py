@@ -21,7 +21,7 @@ HOUSE = """
 house = parse_maze(HOUSE, name="house")
 half = walk(house, seed=1, max_steps=8)
 agent = half.walker
-explore_figure(house.sights, half.path, map_=agent.map, trace=agent.trace).savefig("house.png")
+explore_figure(house, half.path, map_=agent.map, trace=agent.trace).savefig("house.png")
 print(f"half way: {agent.map}")
 
 done = walk(house, seed=1)  # until every room was visited and every transition is believed

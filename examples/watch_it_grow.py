@@ -16,7 +16,7 @@ from cogmap.worlds import load_world
 world = load_world("3x3")
 observation, info = world.reset(seed=2)
 agent = Agent(world.motions, seed=2)
-frames = GrowthFrames(sights=world.maze.sights, start=info["position"])  # the true rooms, drawn faintly beneath
+frames = GrowthFrames(chart=world.chart, start=info["position"])  # the true rooms, drawn faintly beneath
 
 for _ in range(9):
     action = agent.step(observation)

@@ -6,79 +6,98 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .cell_row import Row
-    from .cells import Cell, run_cell, run_cells
-    from .executors import workers
-    from .exploring import ExploreRun, Walk, default_steps, explore, walk
-    from .kidnapping import KidnapRun, kidnap, kidnap_many, kidnap_result
+    from .cells import Cell, Row, run_cell, run_cells
+    from .exploring import (
+        ExploreRun,
+        Walk,
+        exploration,
+        explore,
+        explore_many,
+        frontier_steps,
+        oracle_steps,
+        summarise,
+        walk,
+    )
+    from .goals import WEIGHT, check_goal, parse_goal
+    from .kidnapping import KidnapRun, check_kidnap, kidnap, kidnap_many, kidnap_result
     from .knowledge import BELIEVED, Truth
     from .ledger import Ledger
-    from .navigating import NavigateRun, navigate, navigate_many, parse_goal
-    from .navigation import navigate_result
-    from .oracle import frontier_steps, oracle_steps
-    from .pool import WorkerLostError, completed, map_seeds, map_tasks
-    from .sweep import exploration, explore_many, summarise
-    from .walkers import AGENTS, Walker, check_agent, make_walker
+    from .navigating import NavigateRun, navigate, navigate_many, navigate_result
+    from .output import check_outputs, picture_of, unused, write_json, write_picture
+    from .parts import AGENTS, CSCG, Maker, Parts
+    from .pool import WorkerLostError, completed, map_seeds, map_tasks, workers
+    from .records import Record, mean, std
+    from .running import Moment, Run, Walker, run
+    from .session import Session, default_steps, draw_start, explored, set_out
+    from .text import count, number, spread
 
 __all__ = [
     "AGENTS",
     "BELIEVED",
+    "CSCG",
+    "WEIGHT",
     "Cell",
     "ExploreRun",
     "KidnapRun",
     "Ledger",
+    "Maker",
+    "Moment",
     "NavigateRun",
+    "Parts",
+    "Record",
     "Row",
+    "Run",
+    "Session",
     "Truth",
     "Walk",
     "Walker",
     "WorkerLostError",
-    "check_agent",
+    "check_goal",
+    "check_kidnap",
+    "check_outputs",
     "completed",
+    "count",
     "default_steps",
+    "draw_start",
     "exploration",
     "explore",
     "explore_many",
+    "explored",
     "frontier_steps",
     "kidnap",
     "kidnap_many",
     "kidnap_result",
-    "make_walker",
     "map_seeds",
     "map_tasks",
+    "mean",
     "navigate",
     "navigate_many",
     "navigate_result",
+    "number",
     "oracle_steps",
     "parse_goal",
+    "picture_of",
+    "run",
     "run_cell",
     "run_cells",
+    "set_out",
+    "spread",
+    "std",
     "summarise",
+    "unused",
     "walk",
     "workers",
+    "write_json",
+    "write_picture",
 ]
 
-_MODULES = (
-    "cell_row",
-    "cells",
-    "executors",
-    "exploring",
-    "kidnapping",
-    "knowledge",
-    "ledger",
-    "navigating",
-    "navigation",
-    "oracle",
-    "pool",
-    "sweep",
-    "walkers",
-)
+_MODULES = "text pool running output ledger records parts knowledge session goals exploring kidnapping navigating cells"
 
 
 def __getattr__(name: str) -> Any:
     # imported on first use, so that `cogmap --help` need not wait for the agent
     if name in __all__:
-        for module in _MODULES:
+        for module in _MODULES.split():
             found = import_module(f".{module}", __name__)
             if name in vars(found):
                 return vars(found)[name]

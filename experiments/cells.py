@@ -4,22 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import partial
+from hashlib import sha256
 from importlib.metadata import version
 from itertools import chain
-from typing import Any
+from typing import Any, TypedDict, Unpack
 
 from ..agent import Settings
 from ..baselines import CscgSettings
-from ..model.errors import CogmapError
-from ..model.growth import GROWTHS
+from ..model import GROWTHS, CogmapError
 from ..worlds import Maze
-from .cell_row import Key, Row, layout_digest
-from .exploring import checked_steps, explore
+from .exploring import ExploreRun, explore
 from .ledger import Ledger
+from .parts import Parts
 from .pool import WorkerLostError, completed
-from .walkers import check_agent
+from .records import Record
+from .session import described, draw_start
+
+Key = tuple[str, str, str, str, int]
+"""World, layout, agent, growth, seed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,53 +48,71 @@ class Cell:
         return self.maze.name, layout_digest(self.maze), self.agent, self.growth, self.seed
 
 
+@dataclass(frozen=True, slots=True)
+class Row(Record):
+    """One exploration that was made, as ledgers keep it. Rows are equal whatever seconds they took.
+
+    Attributes:
+        world: name of the maze.
+        layout: digest of rooms and sights, since two mazes may have one name.
+        agent: name of the agent.
+        growth: of the agent `cogmap`.
+        run: its figures.
+    """
+
+    world: str
+    layout: str = field(repr=False)
+    agent: str
+    growth: str
+    run: ExploreRun
+
+    @property
+    def key(self) -> Key:
+        """That of its cell."""
+        return self.world, self.layout, self.agent, self.growth, self.run.seed
+
+
+class Options(TypedDict, total=False):
+    """What rows are made with: settings of `cogmap` but for its growth, of the clone-structured graphs, most moves."""
+
+    settings: Settings | None
+    cscg: CscgSettings | None
+    max_steps: int | None
+
+
 def run_cells(
-    cells: Sequence[Cell],
-    *,
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    max_steps: int | None = None,
-    ledger: Ledger | None = None,
-    executor: Executor | None = None,
+    cells: Sequence[Cell], *, ledger: Ledger | None = None, executor: Executor | None = None, **options: Unpack[Options]
 ) -> Iterator[Row]:
     """A row of each cell: first those that the ledger has, then the others as they finish, each kept at once.
 
     Args:
         cells: what to explore; all different.
-        settings: of the agent `cogmap`, but for its growth.
-        cscg: settings of the clone-structured graphs.
-        max_steps: moves after which a run gives up; by the size of its maze unless given.
         ledger: keeps the rows.
         executor: where the runs are made, in this process if None. But for the order and the seconds the rows do
             not depend on it.
+        options: see `cells.Options`.
 
     Raises:
         CogmapError: a cell is bad or given twice, the ledger is of other settings, or a worker was killed.
     """
-    _check(cells, max_steps)
-    left = {cell.key: cell for cell in cells}
-    rows = [] if ledger is None else ledger.begin(Row.from_dict, **_made_with(settings, cscg, max_steps))
+    left = _checked(cells, options)
+    rows = [] if ledger is None else ledger.begin(Row.from_dict, **_made_with(options))
     kept = [row for row in rows if left.pop(row.key, None) is not None]
-    one = partial(run_cell, settings=settings, cscg=cscg, max_steps=max_steps)
-    new = (row for _, row in completed(one, list(left.values()), executor=executor))
+    new = (row for _, row in completed(partial(run_cell, **options), list(left.values()), executor=executor))
     return chain(kept, new if ledger is None else _keeping(new, ledger))
 
 
-def run_cell(
-    cell: Cell,
-    *,
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    max_steps: int | None = None,
-) -> Row:
-    """Make one exploration; see `run_cells`.
+def run_cell(cell: Cell, **options: Unpack[Options]) -> Row:
+    """Make one exploration; see `run_cells`."""
+    parts = _parts(options, cell.agent).growing(cell.growth)
+    run = explore(cell.maze, cell.seed, agent=parts, max_steps=options.get("max_steps"))
+    return Row(cell.maze.name, layout_digest(cell.maze), cell.agent, cell.growth, run)
 
-    Raises:
-        CogmapError: no such agent or growth, a negative seed, or `max_steps` below 1.
-    """
-    own = replace(settings or Settings(), growth=cell.growth)
-    run = explore(cell.maze, agent=cell.agent, settings=own, cscg=cscg, seed=cell.seed, max_steps=max_steps)
-    return Row(cell.maze.name, cell.agent, cell.growth, run, layout_digest(cell.maze))
+
+def layout_digest(maze: Maze) -> str:
+    """Twelve hexadecimal digits that stand for the rooms, their sights, and the walls between them."""
+    lines = [f"{row} {column} {maze.sights[row, column]!r}" for row, column in maze.rooms]
+    return sha256("\n".join([*lines, *map(str, sorted(maze.walls))]).encode()).hexdigest()[:12]
 
 
 def _keeping(rows: Iterator[Row], ledger: Ledger) -> Iterator[Row]:
@@ -99,31 +121,29 @@ def _keeping(rows: Iterator[Row], ledger: Ledger) -> Iterator[Row]:
             ledger.append(row.to_dict())
             yield row
     except WorkerLostError as error:
-        raise WorkerLostError(
-            f"{error}; finished runs are kept in {ledger.path}, run the same again to go on"
-        ) from error
+        kept = f"finished runs are kept in {ledger.path}, run the same again to go on"
+        raise WorkerLostError(f"{error}; {kept}") from error
 
 
-def _check(cells: Sequence[Cell], max_steps: int | None) -> None:
-    seen: set[Key] = set()
+def _checked(cells: Sequence[Cell], options: Options) -> dict[Key, Cell]:
+    checked: dict[Key, Cell] = {}
     for cell in cells:
-        check_agent(cell.agent)
-        checked_steps("cells", cell.maze, max_steps)
+        described("cells", cell.maze, agent=cell.agent, max_steps=options.get("max_steps"))
+        draw_start("cells", cell.maze, cell.seed)
         if cell.growth not in GROWTHS:
             raise CogmapError(f"cells: no growth is called {cell.growth!r}; choose one of {', '.join(GROWTHS)}")
-        if cell.seed < 0:
-            raise CogmapError(f"cells: seed is {cell.seed}; use 0 or more")
-        if cell.key in seen:
+        if cell.key in checked:
             raise CogmapError(f"cells: {cell.maze.name}, {cell.agent}, seed {cell.seed} is given twice; leave one out")
-        seen.add(cell.key)
+        checked[cell.key] = cell
+    return checked
 
 
-def _made_with(settings: Settings | None, cscg: CscgSettings | None, max_steps: int | None) -> dict[str, Any]:
-    own = (settings or Settings()).to_dict()
-    del own["growth"]  # each row has its own
-    return {
-        "cogmap": version("cogmap"),
-        "settings": own,
-        "cscg": (cscg or CscgSettings()).to_dict(),
-        "max_steps": max_steps,
-    }
+def _parts(options: Options, agent: str = "cogmap") -> Parts:
+    return Parts(agent, options.get("settings") or Settings(), options.get("cscg") or CscgSettings())
+
+
+def _made_with(options: Options) -> dict[str, Any]:
+    parts = _parts(options)
+    own = {name: value for name, value in parts.settings.to_dict().items() if name != "growth"}  # each row has its own
+    made = {"settings": own, "cscg": parts.cscg.to_dict(), "max_steps": options.get("max_steps")}
+    return {"cogmap": version("cogmap"), **made}

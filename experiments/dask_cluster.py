@@ -12,12 +12,12 @@ from functools import partial
 from importlib.metadata import version
 from typing import Any, ParamSpec, TypeVar
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 
 Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 
-_PACKAGE = "cogmap"
+_LOUD = ("distributed", "tornado", "asyncio")
 PATIENCE = 5.0
 """Seconds in which a scheduler must answer, and again in which a worker must be there."""
 
@@ -50,8 +50,7 @@ class _ClusterExecutor(Executor):
     def submit(
         self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
     ) -> Future[Result]:
-        there = self._client.submit(fn, *args, pure=False, **kwargs)
-        here: Future[Result] = Future()
+        there, here = self._client.submit(fn, *args, pure=False, **kwargs), Future[Result]()
         there.add_done_callback(partial(_hand_over, here))
         here.add_done_callback(partial(self._cancel, there))
         return here
@@ -66,12 +65,11 @@ class _ClusterExecutor(Executor):
 
 
 def _hand_over(here: Future[Any], there: Any) -> None:
-    if not here.set_running_or_notify_cancel():
-        return
-    try:
-        here.set_result(there.result())
-    except BaseException as error:
-        here.set_exception(error)
+    if here.set_running_or_notify_cancel():
+        try:
+            here.set_result(there.result())
+        except BaseException as error:
+            here.set_exception(error)
 
 
 def _close(client: Any) -> None:
@@ -85,9 +83,8 @@ def _connected(address: str) -> Any:
     try:
         from distributed import Client
     except ImportError as error:
-        raise CogmapError(
-            f"dask is {address}, but the package distributed is missing; run: pip install 'cogmap[dask]'"
-        ) from error
+        missing = f"dask is {address}, but the package distributed is missing"
+        raise CogmapError(f"{missing}; run: pip install 'cogmap[dask]'") from error
     with _quiet():
         try:
             # a client by itself would wait for ever where something else listens
@@ -95,10 +92,9 @@ def _connected(address: str) -> Any:
                 thread.submit(asyncio.run, _probe(address)).result()
             client = Client(address, timeout=PATIENCE, set_as_default=False)
         except (OSError, MemoryError, ValueError, TypeError, EOFError) as error:
-            raise CogmapError(
-                f"no Dask scheduler answers at {address!r} ({_first_line(error)}); give the address that "
-                "`dask scheduler` prints, like tcp://127.0.0.1:8786"
-            ) from error
+            why = (str(error) or "something else listens there").splitlines()[0]
+            remedy = "give the address that `dask scheduler` prints, like tcp://127.0.0.1:8786"
+            raise CogmapError(f"no Dask scheduler answers at {address!r} ({why}); {remedy}") from error
         try:
             _check_workers(client, address)
         except BaseException:
@@ -117,15 +113,13 @@ async def _probe(address: str) -> None:
 
 def _check_workers(client: Any, address: str) -> None:
     """Refuse a cluster whose results could be others than those of this process."""
+    own = version("cogmap")
     try:
         client.wait_for_workers(1, timeout=PATIENCE)
+        found: dict[str, str] = client.run(version, "cogmap")
     except TimeoutError as error:
-        raise CogmapError(
-            f"the Dask scheduler at {address} has no workers; start one: dask worker {address}"
-        ) from error
-    own = _own_version()
-    try:
-        found: dict[str, str] = client.run(version, _PACKAGE)
+        none = f"the Dask scheduler at {address} has no workers"
+        raise CogmapError(f"{none}; start one: dask worker {address}") from error
     except ImportError as error:
         raise CogmapError(f"a Dask worker of {address} has no cogmap; install cogmap {own} there") from error
     for worker, other in found.items():
@@ -133,30 +127,17 @@ def _check_workers(client: Any, address: str) -> None:
             raise CogmapError(f"Dask worker {worker} has cogmap {other}, this is {own}; install the same version there")
 
 
-def _own_version() -> str:
-    return version(_PACKAGE)
-
-
 @contextmanager
 def _quiet() -> Generator[None]:
     """What goes wrong is said in one line by us, not in many by `distributed`."""
-    known = list(logging.root.manager.loggerDict.items())
-    loggers = [
-        logger
-        for name, logger in known
-        if name.split(".")[0] in ("distributed", "tornado", "asyncio") and isinstance(logger, logging.Logger)
-    ]
-    levels = [logger.level for logger in loggers]
-    for logger in loggers:
-        logger.setLevel(logging.CRITICAL + 1)
+    known = [logging.getLogger(name) for name in logging.root.manager.loggerDict]
+    levels = {logger: logger.level for logger in known if logger.name.split(".")[0] in _LOUD}
     try:
+        for logger in levels:
+            logger.setLevel(logging.CRITICAL + 1)
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", module="distributed")
             yield
     finally:
-        for logger, level in zip(loggers, levels, strict=True):
+        for logger, level in levels.items():
             logger.setLevel(level)
-
-
-def _first_line(error: BaseException) -> str:
-    return (str(error) or "something else listens there").splitlines()[0]

@@ -1,28 +1,27 @@
-"""Exploring a maze from a random room: how many steps until all of it is known?"""
+"""Exploring a world from a random place: how many steps until all of it is known, and how few would do?"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
 from time import perf_counter
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
-from ..agent import Settings
-from ..baselines import CscgSettings
-from ..model.errors import CogmapError
-from ..worlds import Maze, MazeEnv, Position
+from ..baselines import FrontierAgent
+from ..worlds import Chart, Maze, Place, covering_steps, frontier_walk, place_of, world_of
 from .knowledge import Truth
-from .oracle import frontier_steps, oracle_steps
-from .walkers import Seeker, Walker, check_agent, make_walker, sensed
+from .records import OPTIONAL, Record, mean, ratio, std
+from .running import Moment, Watch, run
+from .session import Many, Options, World, chart_of, described, many, set_out
 
-Watch = Callable[[Walker, MazeEnv, int], None]
-"""Called after every choice, before it is carried out, with the agent, the world, and the number of rooms entered."""
+EFFORT = 4_000_000  # of the oracle, search states times rooms squared: some seconds
 
 
 @dataclass(frozen=True, slots=True)
-class ExploreRun:
+class ExploreRun(Record):
     """One exploration. Steps are moves made when the condition first held; None where it never did.
 
     Attributes:
@@ -37,20 +36,13 @@ class ExploreRun:
     """
 
     seed: int
-    start: Position
+    start: Place
     steps_to_visit_all: int | None
     steps_to_learn: int | None
     steps_to_complete: int | None
     oracle_steps: int | None
     seconds: float = field(compare=False)
-    frontier_steps: int | None = None
-
-    def to_dict(self) -> dict[str, Any]:
-        """The run as plain JSON values."""
-        row = {**asdict(self), "start": list(self.start), "seconds": round(self.seconds, 4)}
-        if self.frontier_steps is None:
-            del row["frontier_steps"]
-        return row
+    frontier_steps: int | None = field(default=None, metadata=OPTIONAL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,11 +53,13 @@ class Walk:
         run: its figures.
         path: the true rooms, the start first.
         walker: the agent, after its last observation.
+        truth: to compare its map with.
     """
 
     run: ExploreRun
-    path: tuple[Position, ...]
-    walker: Seeker
+    path: tuple[Place, ...]
+    walker: Any
+    truth: Truth
 
     @property
     def finished(self) -> bool:
@@ -73,109 +67,93 @@ class Walk:
         return self.run.steps_to_complete is not None
 
 
-def explore(
-    maze: Maze,
-    *,
-    agent: str = "cogmap",
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    seed: int = 0,
-    max_steps: int | None = None,
-) -> ExploreRun:
-    """The figures of `walk`."""
-    return walk(maze, agent=agent, settings=settings, cscg=cscg, seed=seed, max_steps=max_steps).run
-
-
-def walk(
-    maze: Maze,
-    *,
-    agent: str = "cogmap",
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    seed: int = 0,
-    max_steps: int | None = None,
-    watch: Watch | None = None,
-) -> Walk:
+def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: Unpack[Options]) -> Walk:
     """Let an agent explore until it is done or out of steps.
 
     Args:
-        maze: the layout, everything open.
-        agent: a name in `AGENTS`.
-        settings: of the agent `cogmap`; static growth gets the number of rooms.
-        cscg: settings of the clone-structured graphs.
+        world: a maze, or an environment with a chart.
         seed: of the start room and of the agent, which get streams of their own.
-        max_steps: moves after which to give up, `default_steps(maze)` unless given.
         watch: looks on.
+        options: see `Options`.
 
     Raises:
         CogmapError: unknown agent, a negative seed, or `max_steps` below 1.
+        WorldError: a world without a chart.
     """
-    check_agent(agent)
-    most = checked_steps("explore", maze, max_steps)
-    start, for_agent, _ = draw_start("explore", maze, seed)
-    walker = make_walker(agent, maze, settings=settings, cscg=cscg, seed=for_agent)
-    begin = perf_counter()
-    path, _, firsts = go(maze, start, walker, most, watch)
-    seconds = perf_counter() - begin
-    oracle = oracle_steps(maze, start)
-    instead = frontier_steps(maze, start) if oracle is None else None
-    return Walk(ExploreRun(seed, start, *firsts, oracle, seconds, instead), tuple(path), walker)
+    session, begin = set_out("explore", world, seed, **options), perf_counter()
+    done, known = session.explore(watch)
+    seconds = round(perf_counter() - begin, 4)
+    oracle = oracle_steps(chart_of(world), session.start)
+    instead = frontier_steps(chart_of(world), session.start) if oracle is None else None
+    figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
+    return Walk(ExploreRun(seed, session.start, *figures), done.truth, session.agent, session.truth)
 
 
-def default_steps(maze: Maze) -> int:
-    """Moves after which an exploration counts as failed, unless told otherwise."""
-    return 50 * len(maze.rooms) + 50
+def explore(world: World, seed: int = 0, **options: Unpack[Options]) -> ExploreRun:
+    """The figures of `walk`."""
+    return walk(world, seed, **options).run
 
 
-def checked_steps(experiment: str, maze: Maze, max_steps: int | None) -> int:
-    """`max_steps`, or `default_steps(maze)` where it is None.
+def explore_many(world: World, **options: Unpack[Many]) -> list[ExploreRun]:
+    """`explore` with the seeds `seed`, `seed + 1`, ..., each of which can be made again alone; see `Many`."""
+    return many(explore, world, options)
 
-    Raises:
-        CogmapError: it is below 1.
+
+def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
+    """Counts, means and standard deviations (population) over the runs that got there; None where none did.
+
+    `ratio` is the mean of `steps_to_complete` over that of `oracle_steps` on the same, completed runs (1 for a
+    maze of one room); it and `mean_oracle_steps` are None where a run has no oracle.
     """
-    most = default_steps(maze) if max_steps is None else max_steps
-    if most < 1:
-        raise CogmapError(f"{experiment}: max_steps is {most}; use 1 or more")
-    return most
+    done = [run for run in runs if run.steps_to_complete is not None]
+    summary: dict[str, Any] = {
+        "runs": len(runs),
+        "completed": len(done),
+        "visited_all": sum(run.steps_to_visit_all is not None for run in runs),
+        "learned": sum(run.steps_to_learn is not None for run in runs),
+        "max_steps": max_steps,
+    }
+    for name in ("steps_to_complete", "steps_to_visit_all", "steps_to_learn"):
+        values = [getattr(run, name) for run in runs]
+        summary |= {f"mean_{name}": mean(values), f"std_{name}": std(values)}
+    exact, oracle = all(run.oracle_steps is not None for run in runs), [run.oracle_steps for run in done]
+    summary["mean_oracle_steps"] = mean(run.oracle_steps for run in runs) if exact else None
+    summary["ratio"] = ratio([run.steps_to_complete for run in done], oracle) if exact else None
+    if not exact:
+        summary["mean_frontier_steps"] = mean(run.frontier_steps for run in runs)
+    return summary
 
 
-def draw_start(experiment: str, maze: Maze, seed: int) -> tuple[Position, np.random.SeedSequence, np.random.Generator]:
-    """What a seed settles: the start room, the stream of the agent, and draws of what happens to it later.
-
-    Raises:
-        CogmapError: `seed` is below 0.
-    """
-    if seed < 0:
-        raise CogmapError(f"{experiment}: seed is {seed}; use 0 or more")
-    for_start, for_agent, later = np.random.SeedSequence(seed).spawn(3)
-    start = maze.rooms[int(np.random.default_rng(for_start).integers(len(maze.rooms)))]
-    return start, for_agent, np.random.default_rng(later)
+def exploration(world: World, runs: Sequence[ExploreRun], **options: Unpack[Options]) -> dict[str, Any]:
+    """World, agent, settings (none for a baseline that has none), runs and summary, as plain JSON values."""
+    chart, maker, most = described("explore", world, **options)
+    head = {"world": chart.name, "agent": maker.agent, "settings": maker.to_dict(chart)}
+    return {**head, "runs": [run.to_dict() for run in runs], "summary": summarise(runs, max_steps=most)}
 
 
-Firsts = tuple[int | None, int | None, int | None]
+@lru_cache(maxsize=4096)
+def oracle_steps(chart: Chart, start: Place) -> int | None:
+    """Steps of the shortest walk from `start` that visits every place; None where it is out of reach."""
+    return covering_steps(chart, start, limit=max(1, EFFORT // len(chart.places) ** 2))
 
 
-def go(
-    maze: Maze, start: Position, walker: Walker, most: int, watch: Watch | None = None
-) -> tuple[list[Position], int, Firsts]:
-    """The walk: its rooms, the action chosen last, and the steps to visit all, to learn, and to complete."""
-    world, truth = MazeEnv(maze), Truth(maze, start)
-    number = {room: i for i, room in enumerate(maze.rooms)}
-    observation, _ = world.reset(options={"start": start})
-    path, rooms, entered, step = [start], [number[start]], {start}, 0
-    visit_all = learn = complete = None
-    while True:
-        action = walker.step(sensed(walker, observation, path[-1]))
-        visited, learned = truth.visited_by(walker, len(entered)), truth.learned_by(walker, rooms)
-        visit_all = step if visited and visit_all is None else visit_all
-        learn = step if learned and learn is None else learn
-        complete = step if visited and learned else None
-        if watch is not None:
-            watch(walker, world, len(entered))
-        if step == most or complete is not None:
-            return path, action, (visit_all, learn, complete)
-        observation, _, _, _, info = world.step(action)
-        path.append(info["position"])
-        rooms.append(number[info["position"]])
-        entered.add(info["position"])
-        step += 1
+@lru_cache(maxsize=4096)
+def frontier_steps(chart: Chart, start: Place) -> int | None:
+    """Steps in which nearest-frontier search visits every place, its draws settled by seed 0; None of a large graph."""
+    return frontier_search(chart, start, seed=0)
+
+
+def frontier_search(chart: Chart, start: Place, seed: Any, *, goal: Any = None) -> int | None:
+    """The same with any seed, until it first stands in a place with the sight `goal` if one is given."""
+    if not isinstance(chart, Maze):
+        walk = frontier_walk(chart, start, rng=np.random.default_rng(seed))
+        there = [step for step, place in enumerate(walk or ()) if goal in (None, chart.sights[place])]
+        return None if not there else there[-1] if goal is None else there[0]
+    left, most = set(chart.places), len(chart.places) ** 2 + 1  # a new room takes no more steps than there are rooms
+
+    def arrived(moment: Moment) -> bool:
+        left.discard(place_of(moment.info))
+        return not left if goal is None else moment.observation["sight"] == goal
+
+    world, agent = world_of(chart), FrontierAgent(chart.motions, seed=seed)
+    return run(world, agent, steps=most, options={"start": start}, watch=arrived).observations - 1

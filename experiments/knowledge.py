@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,39 +10,49 @@ from numpy.typing import NDArray
 from ..agent import Agent
 from ..baselines import CscgAgent
 from ..model import CognitiveMap
-from ..worlds import GRID, Maze, Position
-
-if TYPE_CHECKING:
-    from .walkers import Walker
+from ..worlds import Chart, Place, place_of
+from .running import Moment, Walker, Watch
 
 BELIEVED = 0.6
 """A true transition counts as learned from this probability on."""
 
+Offset = tuple[int, ...]
+
 
 class Truth:
-    """The transitions of a maze with everything open, to compare maps with.
+    """The transitions of a world with everything open, to compare maps with.
 
-    The room `r` is the place that a map has at position `r - start`. The true transitions are those of every
-    room under every action: walls lead back, `stay` stays.
+    A true place stands for the place that a map has where the displacements of the actions lead from `start`. Where
+    these do not fit into a lattice no place of a map stands for any, and nothing is learned. The true transitions are
+    those of every place under every action: walls lead back, `stay` stays.
 
     Args:
-        maze: the layout.
-        start: the room that the agent takes as its origin.
+        chart: the true map, such as a maze.
+        start: the place that the agent takes as its origin.
+
+    Attributes:
+        number: of each place, in the order of the chart.
     """
 
-    def __init__(self, maze: Maze, start: Position) -> None:
-        self._names = [(row - start[0], column - start[1]) for row, column in maze.rooms]
-        number = {room: i for i, room in enumerate(maze.rooms)}
-        beyond = [[_beyond(maze, room, vector) for vector in GRID.displacements] for room in maze.rooms]
-        self._target = np.array([[number[room] for room in row] for row in beyond], dtype=np.int64)  # [R, K]
+    def __init__(self, chart: Chart, start: Place) -> None:
+        self.number = {place: i for i, place in enumerate(chart.places)}
+        ahead = [[self.number[other] for other in chart.successors(place).values()] for place in chart.places]
+        self._offset = _offsets(ahead, self.number[start], chart.motions.displacements)
+        most = max(map(len, ahead))  # an action that a place has not leads back
+        self._target = np.array([[*row, *[i] * (most - len(row))] for i, row in enumerate(ahead)])  # [R, K]
+
+    def place(self, map_: CognitiveMap, place: Place) -> int | None:
+        """The place of a map that stands for a true one; None if there is none."""
+        offset = self._offset.get(self.number[place])
+        return None if offset is None else map_.place_at(offset)
 
     def visited(self, map_: CognitiveMap) -> bool:
-        """Whether the map has a visited place for every room."""
+        """Whether the map has a visited place for every true one."""
         places = self._places(map_)
         return places is not None and bool(map_.visited[places].all())
 
     def least(self, map_: CognitiveMap) -> float:
-        """The probability in B_s of the true transition that is believed least; 0 while a room has no place."""
+        """The probability in B_s of the true transition that is believed least; 0 while one has no place."""
         places = self._places(map_)
         if places is None:
             return 0.0
@@ -55,42 +64,75 @@ class Truth:
         """Whether every true transition is believed at `BELIEVED` or more."""
         return self.least(map_) >= BELIEVED
 
-    def visited_by(self, walker: Walker, entered: int) -> bool:
-        """Whether it has `entered` as many rooms as there are and, if it keeps a map, has them all there as visited."""
-        return entered == len(self._names) and (not isinstance(walker, Agent) or self.visited(walker.map))
-
-    def learned_by(self, walker: Walker, rooms: Sequence[int]) -> bool:
+    def learned_by(self, walker: Walker, path: Sequence[int]) -> bool:
         """Whether the walker believes every true transition.
 
         Args:
             walker: has a map, clones, or `edges` (see `known`); without any of them it knows nothing.
-            rooms: the number of the room, in the order of `Maze.rooms`, in which it was at each step.
+            path: the number of the place in which it was at each step.
         """
         if isinstance(walker, Agent):
             return self.learned(walker.map)
         if isinstance(walker, CscgAgent):
-            return self.believed(walker.place_transitions(rooms, len(self._names)), walker.tries)
+            B, places = walker.place_transitions(path, len(self.number)), np.arange(len(self.number))
+            return all(bool((B[self._target[:, a], places, a] >= BELIEVED).all()) for a in walker.tries)
         return self.known(getattr(walker, "edges", {}))
 
-    def believed(self, B: NDArray[np.float64], actions: Sequence[int]) -> bool:
-        """Whether `B[next room, room, action]` gives every true transition by these actions `BELIEVED` or more."""
-        rooms = np.arange(len(self._names))
-        return all(bool((B[self._target[:, action], rooms, action] >= BELIEVED).all()) for action in actions)
-
-    def known(self, edges: Mapping[tuple[tuple[int, ...], int], tuple[int, ...]]) -> bool:
+    def known(self, edges: Mapping[tuple[Offset, int], Offset]) -> bool:
         """Whether `edges`, {(place, action): place} relative to the start, hold every true transition."""
-        return all(
-            edges.get((name, action)) == self._names[target]
-            for name, row in zip(self._names, self._target.tolist(), strict=True)
+        return bool(self._offset) and all(
+            edges.get((self._offset[number], action)) == self._offset[target]
+            for number, row in enumerate(self._target.tolist())
             for action, target in enumerate(row)
         )
 
-    def _places(self, map_: CognitiveMap) -> np.ndarray[tuple[int], np.dtype[np.int64]] | None:
-        """`[R]` the place of each room, once every room has one."""
-        places = [map_.place_at(name) for name in self._names]
-        return None if None in places else np.array(places, dtype=np.int64)
+    def _places(self, map_: CognitiveMap) -> NDArray[np.int64] | None:
+        """`[R]` the place of each true one, once every one has one."""
+        places = [map_.place_at(self._offset[number]) for number in range(len(self._offset))]
+        return None if None in places or not places else np.array(places, dtype=np.int64)
 
 
-def _beyond(maze: Maze, room: Position, vector: tuple[int, ...]) -> Position:
-    ahead = (room[0] + vector[0], room[1] + vector[1])
-    return ahead if ahead in maze.sights else room
+class Knowledge:
+    """Looks on at an exploration, with `watch` beside it, and ends it once everything is known.
+
+    Attributes:
+        visit_all: steps until every place had been entered, and is visited in the map of an agent that keeps one.
+        learn: steps until every true transition was believed.
+        complete: steps until both held at once. None of what never was, as with the others.
+    """
+
+    def __init__(self, truth: Truth, watch: Watch | None = None) -> None:
+        self._truth, self._watch, self._path = truth, watch, list[int]()
+        self._left = set(truth.number.values())
+        self.visit_all: int | None = None
+        self.learn: int | None = None
+        self.complete: int | None = None
+
+    def __call__(self, moment: Moment) -> bool:
+        """Look at a choice."""
+        walker = moment.agent
+        self._path.append(self._truth.number[place_of(moment.info)])
+        self._left.discard(self._path[-1])
+        visited = not self._left and (not isinstance(walker, Agent) or self._truth.visited(walker.map))
+        learned = self._truth.learned_by(walker, self._path)
+        self.visit_all = moment.step if visited and self.visit_all is None else self.visit_all
+        self.learn = moment.step if learned and self.learn is None else self.learn
+        self.complete = moment.step if visited and learned else None
+        stop = self._watch is not None and self._watch(moment) is True
+        return stop or self.complete is not None
+
+
+def _offsets(ahead: Sequence[Sequence[int]], start: int, displacements: Sequence[Offset]) -> dict[int, Offset]:
+    """Where each place lies from the start, by its number; empty where the moves do not fit into a lattice."""
+    if not displacements:
+        return {}
+    found, order = {start: tuple(0 for _ in displacements[0])}, [start]
+    for place in order:  # grows while it is read
+        for other, vector in zip(ahead[place], displacements, strict=True):
+            offset = tuple(x + dx for x, dx in zip(found[place], vector, strict=True))
+            if other != place and other not in found:
+                found[other] = offset
+                order.append(other)
+            elif other != place and found[other] != offset:
+                return {}
+    return found if len(set(found.values())) == len(ahead) else {}

@@ -1,35 +1,21 @@
-"""Navigating: how far does an agent walk to a sight that it prefers, in a maze it knows or not?"""
+"""Navigating: how far does an agent walk to a sight that it prefers, in a world it knows or not?"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
-from dataclasses import asdict, dataclass
-from functools import partial
-from math import inf
-from typing import Any, Required, TypedDict, Unpack
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Required, Unpack, cast
 
-from ..agent import Settings
-from ..baselines import CscgSettings, FrontierAgent
-from ..model.errors import CogmapError
-from ..worlds import GRID, Label, Maze, MazeEnv, Position
-from .closing import check_closed, shortest
-from .exploring import Watch, checked_steps, draw_start
-from .pool import map_seeds
-from .session import Outing, outing, walked
-from .walkers import sensed
-
-WEIGHT = 8.0
-"""Log preference of the goal over all other sights, in nats a step: more than a step into a room never seen can teach,
-log of the number of sights and log 2 for each of its three other doors, up to 370 sights."""
-
-STAY = GRID.names.index("stay")
-
-MOST_LABELS = 40  # listed in an error
+from ..worlds import CanClose, Label, Place, offered
+from .exploring import frontier_search
+from .goals import WEIGHT, check_goal, shortest
+from .records import OPTIONAL, Record, mean, ratio
+from .running import Moment, Watch
+from .session import Many, Options, Session, World, chart_of, described, draw_start, many, set_out
 
 
 @dataclass(frozen=True, slots=True)
-class NavigateRun:
+class NavigateRun(Record):
     """One way to a goal: a room with the preferred sight in which the agent chooses to stay.
 
     Attributes:
@@ -42,172 +28,131 @@ class NavigateRun:
         steps_to_explore: None where it gave up, or set out unexplored.
         frontier_steps: of nearest-frontier search from `start` until it first stands in a room with the sight; only
             if the agent set out unexplored.
-        steps_to_stand: steps until the agent first stands in a room with the sight, whatever it chooses there; None
-            if never.
+        steps_to_stand: until the agent first stands in a room with the sight, whatever it chooses; None if never.
     """
 
     seed: int
-    start: Position | None
+    start: Place | None
     reached: bool
     steps: int | None
     shortest: int | None
-    explored_from: Position | None = None
+    explored_from: Place | None = field(default=None, metadata=OPTIONAL)
     steps_to_explore: int | None = None
-    frontier_steps: int | None = None
+    frontier_steps: int | None = field(default=None, metadata=OPTIONAL)
     steps_to_stand: int | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The run as plain JSON values, without the fields of the other kind of run."""
-        row = asdict(self)
-        row["start"] = None if self.start is None else list(self.start)
+        row = Record.to_dict(self)
         if self.explored_from is None:
-            del row["explored_from"], row["steps_to_explore"]
-        else:
-            row["explored_from"] = list(self.explored_from)
-            del row["frontier_steps"]
+            del row["steps_to_explore"]
         return row
 
 
-def navigate(
-    maze: Maze,
-    *,
-    goal: Label,
-    known: bool = True,
-    weight: float = WEIGHT,
-    agent: str = "cogmap",
-    settings: Settings | None = None,
-    cscg: CscgSettings | None = None,
-    seed: int = 0,
-    max_steps: int | None = None,
-    closed: Sequence[Position] = (),
-    watch: Watch | None = None,
-) -> NavigateRun:
-    """Let an agent go to a sight.
+class NavigateOptions(Options, total=False):
+    """Who goes where.
 
-    Args:
-        maze: the layout, everything open.
+    Attributes:
         goal: the label of the sight.
-        known: whether it explores first and is then silently moved to a random room, with nothing reset; otherwise
-            it prefers the goal from its first step in an unknown maze.
-        weight: log preference of the goal, in nats.
-        agent: a name in `AGENTS`.
-        settings: of the agent `cogmap`; static growth gets the number of rooms.
-        cscg: settings of the clone-structured graphs.
-        seed: of everything random; start and exploring are those of `explore` with the same seed.
-        max_steps: moves after which to give up exploring, and again navigating; `default_steps(maze)` unless given.
+        known: whether the agent explores first and is then silently moved to a random room, with nothing reset;
+            otherwise it prefers the goal from its first step in an unknown maze. True unless given.
+        weight: log preference of the goal, in nats; `WEIGHT` unless given.
         closed: rooms that are closed while it is moved, after exploring with everything open.
-        watch: looks on, from the first step to the last.
-
-    Raises:
-        CogmapError: no room has the label, a weight that is not above 0, no agent has the name, a negative seed,
-            `max_steps` below 1, or rooms that cannot be closed (see `check_closed`).
     """
-    check_goal(maze, goal, weight)
-    check_closed(maze, goal, closed, known=known)
-    most = checked_steps("navigate", maze, max_steps)
-    out = outing("navigate", maze, agent=agent, settings=settings, cscg=cscg, seed=seed)
-    if not known:
-        steps, stood = _reach(out, goal, weight, most, watch)
-        least, frontier = shortest(maze, out.start, goal), frontier_to(maze, goal, seed=seed)
-        return NavigateRun(seed, out.start, steps is not None, steps, least, None, None, frontier, stood)
-    out = walked(out, most, watch)
-    if out.steps is None:
-        return NavigateRun(seed, None, False, None, None, out.start)
-    room = out.displace(elsewhere=False, but=closed)
-    for shut in closed:
-        out.world.close_room(shut)
-    steps, stood = _reach(out, goal, weight, most, watch)
-    least = shortest(maze, room, goal, closed)
-    return NavigateRun(seed, room, steps is not None, steps, least, out.start, out.steps, steps_to_stand=stood)
-
-
-def check_goal(maze: Maze, goal: Label, weight: float = WEIGHT) -> None:
-    """Refuse a goal that cannot be reached or is not preferred.
-
-    Raises:
-        CogmapError: no room has the label, or the weight is not above 0 or not finite.
-    """
-    labels = sorted(set(maze.sights.values()), key=lambda label: (str(type(label)), label))
-    if goal not in labels:
-        named = ", ".join(map(str, labels[:MOST_LABELS]))
-        more = f" and {len(labels) - MOST_LABELS} more" if len(labels) > MOST_LABELS else ""
-        raise CogmapError(f"navigate: no room of maze {maze.name!r} has label {goal!r}; use one of {named}{more}")
-    if not 0.0 < weight < inf:
-        raise CogmapError(f"navigate: weight is {weight}; use a log preference above 0, in nats")
-
-
-def parse_goal(maze: Maze, text: str) -> Label:
-    """The label that `text` names in this maze: a whole number where its labels are numbers, else a word.
-
-    Raises:
-        CogmapError: no room has that label.
-    """
-    words = any(isinstance(label, str) for label in maze.sights.values())
-    goal = text if words or not (text.isascii() and text.isdecimal()) else int(text)
-    check_goal(maze, goal)
-    return goal
-
-
-class Options(TypedDict, total=False):
-    """What `navigate` can be told besides maze and seed."""
 
     goal: Required[Label]
     known: bool
     weight: float
-    agent: str
-    settings: Settings | None
-    cscg: CscgSettings | None
-    max_steps: int | None
-    closed: Sequence[Position]
+    closed: Sequence[Place]
 
 
-def navigate_many(
-    maze: Maze,
-    *,
-    runs: int,
-    seed: int = 0,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-    **options: Unpack[Options],
-) -> list[NavigateRun]:
-    """Runs with the seeds `seed`, `seed + 1`, ..., and the options of `navigate`; the same whatever `executor`.
+class NavigateMany(NavigateOptions, Many, total=False):
+    """The options of `navigate_many`."""
+
+
+def navigate(
+    world: World, seed: int = 0, *, watch: Watch | None = None, **options: Unpack[NavigateOptions]
+) -> NavigateRun:
+    """Let an agent go to a sight.
+
+    Args:
+        world: a maze, or an environment with a chart.
+        seed: of everything random; start and exploring are those of `explore` with the same seed.
+        watch: looks on, from the first step to the last.
+        options: see `NavigateOptions`.
 
     Raises:
-        CogmapError: `runs` is below 1, or what `navigate` and `map_tasks` raise.
+        CogmapError: what `check_goal` raises, no agent has the name, a negative seed, or `max_steps` below 1.
+        WorldError: a world that lacks what this needs.
     """
-    return map_seeds(partial(_one, maze, options), runs=runs, seed=seed, executor=executor, on_done=on_done)
+    goal, known, weight, closed, others = _task(options)
+    check_goal(world, goal, weight=weight, closed=closed, known=known)
+    session, chart = set_out("navigate", world, seed, **others), chart_of(world)
+    if not known:
+        start, for_agent, _ = draw_start("navigate", world, seed)
+        steps, stood = _reach(session, goal, weight, watch)
+        least, frontier = shortest(chart, start, goal), frontier_search(chart, start, for_agent, goal=goal)
+        return NavigateRun(seed, start, steps is not None, steps, least, None, None, frontier, stood)
+    session.explore(watch)
+    if session.steps is None:
+        return NavigateRun(seed, None, False, None, None, session.start)
+    room = session.displace(elsewhere=False, but=closed)
+    for shut in closed:
+        offered(session.world, CanClose, "close").close_room(shut)
+    steps, stood = _reach(session, goal, weight, watch)
+    least, explored = shortest(chart, room, goal, closed), (session.start, session.steps)
+    return NavigateRun(seed, room, steps is not None, steps, least, *explored, steps_to_stand=stood)
 
 
-def frontier_to(maze: Maze, goal: Label, *, seed: int) -> int:
-    """Steps until nearest-frontier search first stands in a room with the sight, from the start room of `seed`."""
-    start, for_agent, _ = draw_start("navigate", maze, seed)
-    world, agent = MazeEnv(maze), FrontierAgent(GRID, seed=for_agent)
-    observation, _ = world.reset(options={"start": start})
-    steps = 0
-    while observation["sight"] != goal:
-        observation, *_ = world.step(agent.step(observation))
-        steps += 1
-    return steps
+def navigate_many(world: World, **options: Unpack[NavigateMany]) -> list[NavigateRun]:
+    """`navigate` with the seeds `seed`, `seed + 1`, ..., each of which can be made again alone; see `Many`."""
+    return many(navigate, world, options)
 
 
-def _one(maze: Maze, options: Options, seed: int) -> NavigateRun:
-    return navigate(maze, seed=seed, **options)
+def navigate_result(world: World, runs: Sequence[NavigateRun], **options: Unpack[NavigateOptions]) -> dict[str, Any]:
+    """World, agent, goal, settings, runs and summary, as plain JSON values; the options are those of `navigate`.
+
+    Totals, means and the ratio of the totals are over the runs that reached the goal; `failed` counts the others.
+    The ratio is None where none reached it, and where every one of them started there but walked all the same.
+    """
+    goal, known, weight, closed, others = _task(options)
+    chart, maker, most = described("navigate", world, **others)
+    there = [run for run in runs if run.reached]
+    steps, least = [run.steps or 0 for run in there], [run.shortest or 0 for run in there]
+    summary: dict[str, Any] = {"runs": len(runs), "reached": len(there), "failed": len(runs) - len(there)}
+    if known:
+        summary["explored"] = sum(run.steps_to_explore is not None for run in runs)
+    summary |= {"max_steps": most, "total_steps": sum(steps), "total_shortest": sum(least)}
+    summary |= {"ratio": ratio(steps, least), "mean_steps": mean(steps), "mean_shortest": mean(least)}
+    if not known:
+        frontier = [run.frontier_steps or 0 for run in there]
+        summary |= {"total_frontier_steps": sum(frontier), "mean_frontier_steps": mean(frontier)}
+    head = {"world": chart.name, "agent": maker.agent, "goal": goal, "weight": weight, "unexplored": not known}
+    shut = {"closed": [list(room) for room in closed]} if closed else {}
+    rows = [run.to_dict() for run in runs]
+    return {**head, **shut, "settings": maker.to_dict(chart), "runs": rows, "summary": summary}
 
 
-def _reach(
-    out: Outing, goal: Label, weight: float, most: int, watch: Watch | None = None
-) -> tuple[int | None, int | None]:
+def _task(options: NavigateOptions) -> tuple[Label, bool, float, Sequence[Place], Options]:
+    """Goal, whether the world is known, weight, closed rooms, and the other options."""
+    others = {name: value for name, value in options.items() if name in Options.__annotations__}
+    known, weight, closed = options.get("known", True), options.get("weight", WEIGHT), options.get("closed", ())
+    return options["goal"], known, weight, closed, cast(Options, others)
+
+
+def _reach(session: Session, goal: Label, weight: float, watch: Watch | None) -> tuple[int | None, int | None]:
     """Steps before it chooses to stay in a room with the sight, and before it first stands in one."""
-    out.agent.prefer({goal: weight})
-    stood: int | None = None
-    for step in range(most + 1):
-        observation = out.world.observe()
-        action = out.agent.step(sensed(out.agent, observation, out.world.position))
-        if watch is not None:
-            watch(out.agent, out.world, len(out.world.maze.rooms))
-        there = observation["sight"] == goal
-        stood = step if there and stood is None else stood
-        if there and action == STAY:
-            return step, stood
-        out.world.step(action)
-    return None, stood
+    reached = stood = None
+    stay = chart_of(session.world).motions.names.index("stay")
+
+    def look(moment: Moment) -> bool:
+        nonlocal reached, stood
+        if moment.observation["sight"] == goal:
+            stood = moment.step if stood is None else stood
+            reached = moment.step if moment.action == stay else None
+        stop = watch is not None and watch(moment) is True
+        return stop or reached is not None
+
+    session.agent.prefer({goal: weight})
+    session.run(session.most + 1, look)
+    return reached, stood

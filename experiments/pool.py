@@ -1,16 +1,26 @@
-"""The same function on many tasks, wherever they are run."""
+"""The same function on many tasks: in this process, on several processes, or on a Dask cluster."""
 
 from __future__ import annotations
 
+import multiprocessing
+import os
+import signal
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, as_completed
-from typing import Any, TypeVar
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from multiprocessing.context import SpawnContext, SpawnProcess
+from threading import Thread
+from typing import Any, ParamSpec, TypeVar
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 
+Parameters = ParamSpec("Parameters")
 Task = TypeVar("Task")
 Result = TypeVar("Result")
+
+PATIENCE = 5.0
+"""Seconds that a process may take to end."""
 
 
 class WorkerLostError(CogmapError):
@@ -20,7 +30,7 @@ class WorkerLostError(CogmapError):
 def completed(
     function: Callable[[Task], Result], tasks: Sequence[Task], *, executor: Executor | None = None
 ) -> Iterator[tuple[int, Result]]:
-    """(index of the task, result) as they finish.
+    """(index of the task, result) as they finish; at the first error those that are there, then the error.
 
     Closing the iterator, or an error of any task, cancels what has not begun.
 
@@ -33,20 +43,19 @@ def completed(
         WorkerLostError: a worker was killed, or its cluster is gone.
     """
     if executor is None:
-        for index, task in enumerate(tasks):
-            yield index, function(task)
+        yield from ((index, function(task)) for index, task in enumerate(tasks))
         return
-    indices: dict[Future[Result], int] = {}
+    left: dict[Future[Result], int] = {}
     try:
         for index, task in enumerate(tasks):
-            indices[executor.submit(function, task)] = index
-        yield from _results(indices)
+            left[executor.submit(function, task)] = index
+        yield from _results(left)
     except BrokenExecutor as error:
         raise WorkerLostError("a worker process was killed, perhaps out of memory; use fewer jobs") from error
     except _dask_errors() as error:
         raise WorkerLostError("the Dask cluster lost its scheduler, or workers again and again") from error
     finally:
-        for future in indices:
+        for future in left:
             future.cancel()
 
 
@@ -57,14 +66,7 @@ def map_tasks(
     executor: Executor | None = None,
     on_done: Callable[[], None] | None = None,
 ) -> list[Result]:
-    """Results in the order of the tasks, whatever the executor; see `completed`.
-
-    Args:
-        function: as there.
-        tasks: as there.
-        executor: as there.
-        on_done: called after each task.
-    """
+    """Results in the order of the tasks, whatever the executor; see `completed`. `on_done` is called after each."""
     results: dict[int, Result] = {}
     for index, result in completed(function, tasks, executor=executor):
         results[index] = result
@@ -73,47 +75,118 @@ def map_tasks(
     return [results[index] for index in range(len(tasks))]
 
 
-def map_seeds(
-    function: Callable[[int], Result],
-    *,
-    runs: int,
-    seed: int = 0,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-) -> list[Result]:
-    """Results of the seeds `seed`, `seed + 1`, ..., so that each run can be repeated alone; see `map_tasks`.
+def map_seeds(function: Callable[[int], Result], *, runs: int, seed: int = 0, **how: Any) -> list[Result]:
+    """Results of the seeds `seed`, `seed + 1`, ..., so that each run can be repeated alone; `how` as for `map_tasks`.
 
     Raises:
         CogmapError: `runs` is below 1, or what `map_tasks` raises.
     """
     if runs < 1:
         raise CogmapError(f"runs is {runs}; use 1 or more")
-    return map_tasks(function, range(seed, seed + runs), executor=executor, on_done=on_done)
+    return map_tasks(function, range(seed, seed + runs), **how)
 
 
-def _results(indices: Mapping[Future[Result], int]) -> Iterator[tuple[int, Result]]:
-    """As they finish; at the first error those that are there, then the error."""
-    left, failure = dict(indices), None
-    for future in as_completed(indices):
-        failure = _failure(future)
-        if failure is not None:
-            break
+@contextmanager
+def workers(*, jobs: int = 1, dask: str | None = None) -> Generator[Executor | None]:
+    """Where to run tasks, for as long as the `with` lasts; an error in it ends what still runs.
+
+    Args:
+        jobs: processes at most. Above 1 they are spawned, so a script needs `if __name__ == "__main__":`. They do not
+            see Ctrl-C: this process does, and ends them.
+        dask: address of a Dask scheduler, `host:port` or `tcp://host:port`. Its workers must have cogmap in the same
+            version.
+
+    Yields:
+        An executor, or None: in this process.
+
+    Raises:
+        CogmapError: `jobs` below 1, both given, the package `distributed` is missing, or there is no such cluster.
+    """
+    if jobs < 1:
+        raise CogmapError(f"jobs is {jobs}; use 1 or more")
+    if dask is not None and jobs > 1:
+        raise CogmapError(f"jobs is {jobs} and dask is {dask}; give one of them, a Dask cluster has its own workers")
+    if dask is not None:
+        from .dask_cluster import cluster
+
+        with cluster(dask) as executor:
+            yield executor
+    elif jobs > 1:
+        with _processes(jobs) as executor:
+            yield executor
+    else:
+        yield None
+
+
+def _results(left: dict[Future[Result], int]) -> Iterator[tuple[int, Result]]:
+    for future in as_completed(list(left)):
+        if not _succeeded(future):
+            yield from ((i, done.result()) for done, i in left.items() if done.done() and _succeeded(done))
+            future.result()  # raises
         yield left.pop(future), future.result()
-    for future, index in left.items():
-        if future.done() and _failure(future) is None:
-            yield index, future.result()
-    if failure is not None:
-        raise failure
 
 
-def _failure(future: Future[Any]) -> BaseException | None:
-    try:
-        return future.exception()
-    except CancelledError as error:
-        return error
+def _succeeded(future: Future[Any]) -> bool:
+    return not future.cancelled() and future.exception() is None
 
 
 def _dask_errors() -> tuple[type[BaseException], ...]:
     """What a future of Dask raises where workers or scheduler have gone, if Dask is in use."""
     dask: Any = sys.modules.get("distributed")
     return () if dask is None else (CancelledError, dask.KilledWorker)
+
+
+@contextmanager
+def _processes(jobs: int) -> Generator[Executor]:
+    """A pool that is ended at once, not after its last task, when something goes wrong."""
+    context = _Spawning()
+    pool = _Processes(jobs, context, initializer=_end_with_parent)
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for process in context.started:
+            process.terminate()
+        for process in context.started:
+            process.join(PATIENCE)
+        raise
+    finally:
+        pool.shutdown()
+
+
+class _Spawning(SpawnContext):
+    """Remembers the processes that it starts; spawned, since a progress bar has a thread, which survives no fork."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.everyone: list[SpawnProcess] = []
+
+    def Process(self, *args: Any, **options: Any) -> SpawnProcess:  # type: ignore[override]
+        self.everyone.append(SpawnProcess(*args, **options))
+        return self.everyone[-1]
+
+    @property
+    def started(self) -> list[SpawnProcess]:
+        """Those that were started."""
+        return [process for process in self.everyone if process.pid is not None]
+
+
+class _Processes(ProcessPoolExecutor):
+    """Processes that never see Ctrl-C."""
+
+    def submit(
+        self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
+    ) -> Future[Result]:
+        if not hasattr(signal, "pthread_sigmask"):
+            return super().submit(fn, *args, **kwargs)
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # processes start here, and inherit it
+        try:
+            return super().submit(fn, *args, **kwargs)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _end_with_parent() -> None:
+    """In a process of the pool: end with the one that started it, however that ends."""
+    parent: Any = multiprocessing.parent_process()
+    Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()

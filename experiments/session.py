@@ -1,118 +1,179 @@
-"""An agent that knows its maze: where the experiments after exploring begin."""
+"""An agent in a world whose truth is known: set out, exploring, moved without a word."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
-from typing import TypeVar
+from collections.abc import Callable, Collection, Mapping
+from concurrent.futures import Executor
+from contextlib import suppress
+from copy import deepcopy
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any, Required, TypedDict, TypeVar, Unpack
 
+import gymnasium as gym
 import numpy as np
 
-from ..agent import Agent, Settings
-from ..baselines import CscgSettings
-from ..worlds import GRID, Maze, MazeEnv, Position
-from .exploring import Watch, draw_start, go
-from .walkers import Seeker, fitted, make_walker
+from ..agent import Settings
+from ..model import CogmapError
+from ..worlds import CanDisplace, Chart, HasChart, Place, WorldError, offered, place_of, world_of
+from .knowledge import Knowledge, Truth
+from .parts import Maker, Parts
+from .pool import map_seeds
+from .running import Run, Seen, Watch, run
+
+_Row = TypeVar("_Row")
+World = Chart | gym.Env[Any, Any]
+"""Where experiments take place: a chart, such as a maze, or an environment that has one; it is left as it is."""
 
 
-@dataclass(frozen=True, slots=True)
-class Outing:
-    """An agent of any kind in a world.
+class Options(TypedDict, total=False):
+    """Who explores, and for how long.
 
     Attributes:
-        agent: before its first step, or after its last observation; the action it then chose has been carried out.
-        world: where it is.
-        start: the room that it takes as its origin.
-        steps: in which it explored the maze; None where it gave up.
-        rng: draws what happens next.
+        agent: a name in `AGENTS`, or what makes agents: see `Parts`; `cogmap` unless given.
+        settings: of the agent `cogmap` given by name.
+        max_steps: moves after which to give up exploring, and again what follows; `default_steps(world)` unless given.
     """
 
-    agent: Seeker
-    world: MazeEnv
-    start: Position
-    steps: int | None
+    agent: str | Maker
+    settings: Settings | None
+    max_steps: int | None
+
+
+class Many(Options, total=False):
+    """The same of `runs` runs, the first with `seed`; `executor` and `on_done` as for `map_tasks`."""
+
+    runs: Required[int]
+    seed: int
+    executor: Executor | None
+    on_done: Callable[[], None] | None
+
+
+@dataclass(slots=True)
+class Session:
+    """An agent in a world of its own.
+
+    Attributes:
+        world: where it is.
+        agent: before its first step, or after its last observation; the action it then chose has been carried out.
+        start: the place where it began, which it takes as its origin.
+        rng: draws what happens to it later.
+        most: moves after which it gives up.
+        seed: of the world.
+        steps: in which it explored the world; None where it has not, or gave up.
+        truth: to compare its map with.
+    """
+
+    world: Any
+    agent: Any
+    start: Place
     rng: np.random.Generator
+    most: int
+    seed: int
+    steps: int | None = field(init=False, default=None)
+    truth: Truth = field(init=False)
+    _seen: Seen = field(init=False)
 
-    def displace(self, *, elsewhere: bool, but: Collection[Position] = ()) -> Position:
-        """Move it to a random room without a word, `elsewhere` to another one than it is in; answers with the room.
+    def __post_init__(self) -> None:
+        self._seen = self.world.reset(seed=self.seed, options={"start": self.start})
+        self.truth = Truth(chart_of(self.world), self.start)
 
-        The rooms of `but` are left out.
-        """
-        here = self.world.position
-        rooms = [room for room in self.world.maze.rooms if room not in but and (not elsewhere or room != here)]
-        room = rooms[int(self.rng.integers(len(rooms)))]
-        self.world.displace(room)
-        return room
-
-
-@dataclass(frozen=True, slots=True)
-class Session(Outing):
-    """An agent with a map in a world, and what is true of it."""
-
-    agent: Agent
+    @property
+    def place(self) -> Place:
+        """Where it truly is."""
+        return getattr(self.world.unwrapped, "place", place_of(self._seen[1]))
 
     @property
     def true_place(self) -> int | None:
-        """The place of its map that stands for the room it is in."""
-        row, column = self.world.position
-        return self.agent.map.place_at((row - self.start[0], column - self.start[1]))
+        """The place of the agent's map that stands for the one it is in."""
+        return self.truth.place(self.agent.map, self.place)
+
+    def run(self, steps: int, watch: Watch | None = None) -> Run:
+        """Go on from where it is, for `steps` observations at most; see `cogmap.experiments.run`."""
+        with suppress(WorldError):  # what was opened, closed or moved in the meantime shows
+            self._seen = offered(self.world, CanDisplace, "this").observe(), {"place": self.place}
+        done = run(self.world, self.agent, steps=steps, begin=self._seen, watch=watch)
+        self._seen = done.end
+        return done
+
+    def explore(self, watch: Watch | None = None) -> tuple[Run, Knowledge]:
+        """Go on until every place was visited and every transition is believed, for `most` moves at most."""
+        knowledge = Knowledge(self.truth, watch)
+        done = self.run(self.most + 1, knowledge)
+        self.steps = knowledge.complete
+        return done, knowledge
+
+    def displace(self, *, elsewhere: bool, but: Collection[Place] = ()) -> Place:
+        """Move it to a random place without a word, but for `but`, `elsewhere` to another; answers with the place."""
+        here = self.place if elsewhere else None
+        places = [place for place in self.truth.number if place not in but and place != here]
+        place = places[int(self.rng.integers(len(places)))]
+        self._seen = offered(self.world, CanDisplace, "moving an agent").displace(place), {"place": place}
+        return place
 
 
-AnyOuting = TypeVar("AnyOuting", bound=Outing)
-
-
-def explored(experiment: str, maze: Maze, *, settings: Settings | None, seed: int, most: int) -> Session:
-    """An agent that has explored the maze, exactly as `explore` with the same seed would have.
-
-    Raises:
-        CogmapError: a negative seed.
-    """
-    return walked(unexplored(experiment, maze, settings=settings, seed=seed), most)
-
-
-def unexplored(experiment: str, maze: Maze, *, settings: Settings | None, seed: int) -> Session:
-    """An agent that has seen nothing yet, in the room where `explore` with the same seed would start.
-
-    Raises:
-        CogmapError: a negative seed.
-    """
-    start, for_agent, rng = draw_start(experiment, maze, seed)
-    agent = Agent(GRID, settings=fitted(settings or Settings(), maze), seed=int(for_agent.generate_state(1)[0]))
-    return Session(agent, _world(maze, start), start, None, rng)
-
-
-def outing(
-    experiment: str, maze: Maze, *, agent: str, settings: Settings | None, cscg: CscgSettings | None, seed: int
-) -> Outing:
-    """The same with any agent of `AGENTS`.
+def set_out(experiment: str, world: World, seed: int, **options: Unpack[Options]) -> Session:
+    """A new agent that has seen nothing yet, where every experiment with this seed starts, in a copy of the world.
 
     Raises:
-        CogmapError: a negative seed, or no agent has this name.
+        CogmapError: no agent has this name, a negative seed, or `max_steps` below 1.
+        WorldError: a world without a chart.
     """
-    start, for_agent, rng = draw_start(experiment, maze, seed)
-    walker = make_walker(agent, maze, settings=settings, cscg=cscg, seed=for_agent)
-    return Outing(walker, _world(maze, start), start, None, rng)
+    chart, maker, most = described(experiment, world, **options)
+    start, for_agent, rng = draw_start(experiment, world, seed)
+    for_world = np.random.SeedSequence(seed).spawn(4)[3].generate_state(1)[0]  # `draw_start` uses the first three
+    own = world_of(chart) if world is chart else deepcopy(world, {id(chart): chart})  # a chart never changes
+    return Session(own, maker.make(own, for_agent), start, rng, most, int(for_world))
 
 
-def walked(outing: AnyOuting, most: int, watch: Watch | None = None) -> AnyOuting:
-    """The same after exploring, for `most` steps if it does not complete before."""
-    path, action, (_, _, steps) = go(outing.world.maze, outing.start, outing.agent, most, watch)
-    outing.world.displace(path[-1])
-    outing.world.step(action)
-    return replace(outing, steps=steps)
+def explored(experiment: str, world: World, seed: int, **options: Unpack[Options]) -> Session:
+    """An agent that has explored the world as `explore` with the same seed would have; raises what `set_out` does."""
+    session = set_out(experiment, world, seed, **options)
+    session.explore()
+    return session
 
 
-def mean(values: Sequence[int]) -> float | None:
-    """The mean; None of nothing."""
-    return float(np.mean(values)) if values else None
+def described(experiment: str, world: World, **options: Unpack[Options]) -> tuple[Chart, Maker, int]:
+    """The chart, what makes the agents, and the moves after which they give up; raises what `set_out` does."""
+    agent, settings, most = options.get("agent", "cogmap"), options.get("settings"), options.get("max_steps")
+    if settings is not None and not isinstance(agent, str):
+        raise CogmapError(f"agent {agent.agent} has settings of its own; leave the argument settings out")
+    most = default_steps(world) if most is None else most
+    if most < 1:
+        raise CogmapError(f"{experiment}: max_steps is {most}; use 1 or more")
+    return chart_of(world), Parts(agent, settings or Settings()) if isinstance(agent, str) else agent, most
 
 
-def std(values: Sequence[int]) -> float | None:
-    """The standard deviation (population); None of nothing."""
-    return float(np.std(values)) if values else None
+def many(experiment: Callable[..., _Row], world: World, options: Mapping[str, Any]) -> list[_Row]:
+    """Rows of an experiment; `options` are `Many`, and others of the experiment."""
+    how = {name: value for name, value in options.items() if name in ("runs", "seed", "executor", "on_done")}
+    own = {name: value for name, value in options.items() if name not in how}
+    return map_seeds(partial(experiment, world, **own), **how)
 
 
-def _world(maze: Maze, start: Position) -> MazeEnv:
-    world = MazeEnv(maze)
-    world.reset(options={"start": start})
-    return world
+def chart_of(world: World) -> Chart:
+    """The true map of a world, or a `WorldError` that says what there is without one."""
+    if isinstance(world, Chart):
+        return world
+    try:
+        return offered(world, HasChart, "this experiment").chart
+    except WorldError as error:
+        raise WorldError(f"{error}; without a chart there is cogmap.experiments.run(world, agent, steps=…)") from error
+
+
+def default_steps(world: World) -> int:
+    """Moves after which an exploration counts as failed, unless told otherwise."""
+    return 50 * len(chart_of(world).places) + 50
+
+
+def draw_start(experiment: str, world: World, seed: int) -> tuple[Place, np.random.SeedSequence, np.random.Generator]:
+    """What a seed settles: the place to start in, the stream of the agent, and draws of what happens to it later.
+
+    Raises:
+        CogmapError: `seed` is below 0.
+    """
+    if seed < 0:
+        raise CogmapError(f"{experiment}: seed is {seed}; use 0 or more")
+    for_start, for_agent, later = np.random.SeedSequence(seed).spawn(3)
+    places = chart_of(world).places
+    return places[int(np.random.default_rng(for_start).integers(len(places)))], for_agent, np.random.default_rng(later)

@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
 
-from ..model.errors import CogmapError
-
-if TYPE_CHECKING:
-    from .problem import Problem
+from ..model import CogmapError, FactorGraph
 
 
 class ImpossibleEvidence(CogmapError):  # noqa: N818 - reads as what it says
     """No assignment has a product of factors above zero: the evidence contradicts the model."""
 
 
-def impossible(problem: Problem, variables: Iterable[str]) -> ImpossibleEvidence:
+def impossible(graph: FactorGraph, given: Mapping[str, object], variables: Iterable[str]) -> ImpossibleEvidence:
     """The error that names the factors which leave no value to `variables`, and the evidence."""
     names = set(variables)
-    touching = [f.label for f in problem.graph.factors if names & {v.name for v in f.scope}]
+    touching = [f.label for f in graph.factors if f.label in names or names & {v.name for v in f.scope}]
     return ImpossibleEvidence(
         f"the evidence is impossible: every assignment of {_listed(sorted(names))} has probability 0; "
-        f"check {_given(problem.given)} and the zeros of {_listed(touching)}, or give the zeros a floor"
+        f"check {_given(given)} and the zeros of {_listed(touching)}, or give the zeros a floor"
     )
 
 

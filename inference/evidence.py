@@ -1,33 +1,51 @@
-"""Evidence as a person gives it (labels) turned into what engines need (indices)."""
+"""Evidence as a person gives it (labels, likelihoods) turned into what engines need (numbers)."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
+from dataclasses import dataclass
 
-from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
+import numpy as np
+
+from ..model import AllEvidence, CogmapError, FactorGraph, FloatArray
 
 
-def all_evidence(graph: FactorGraph, evidence: Mapping[str, Hashable] | None) -> dict[str, Hashable]:
-    """The graph's own evidence and the given one, by variable name.
+@dataclass(frozen=True, slots=True)
+class Given:
+    """What is known of the variables of a graph.
+
+    Attributes:
+        labels: the labels observed, by name.
+        likelihoods: the likelihoods observed, by name, one a label of the domain.
+        fixed: index of the one label left, by number of the variable; variables of one label are among them.
+        soft: `[cardinality]` likelihoods, by number of the variable.
+    """
+
+    labels: Mapping[str, Hashable]
+    likelihoods: Mapping[str, tuple[float, ...]]
+    fixed: Mapping[int, int]
+    soft: Mapping[int, FloatArray]
+
+
+def given(graph: FactorGraph, evidence: AllEvidence | None = None) -> Given:
+    """The graph's own evidence and the evidence given with a query.
 
     Raises:
         CogmapError: the two contradict each other, a name or label is unknown, or an observed variable
             with several labels has no evidence.
     """
-    merged = dict(graph.observe_all(evidence).evidence if evidence else graph.evidence)
-    for variable in graph.variables:
-        if variable.observed and variable.cardinality > 1 and variable.name not in merged:
+    graph = graph.observe_all(evidence) if evidence else graph
+    wiring, labels, likelihoods = graph.wiring, dict(graph.evidence), dict(graph.likelihoods)
+    fixed = dict.fromkeys(wiring.single, 0)
+    for name, label in labels.items():
+        number = wiring.number[name]
+        fixed[number] = wiring.variables[number].index(label)
+    for number in wiring.observed:
+        name = wiring.variables[number].name
+        if number not in fixed and name not in likelihoods:
             raise CogmapError(
-                f"evidence: {variable.name!r} is declared observed but has none; pass evidence={{{variable.name!r}: "
+                f"evidence: {name!r} is declared observed but has none; pass evidence={{{name!r}: "
                 "label}, or declare it without observed=True to sum over it"
             )
-    return merged
-
-
-def fixed_indices(graph: FactorGraph, given: Mapping[str, Hashable]) -> dict[str, int]:
-    """Index of every variable that has one possible label: by evidence, or by a domain of one label."""
-    fixed = {variable.name: 0 for variable in graph.variables if variable.cardinality == 1}
-    for name, label in given.items():
-        fixed[name] = graph.variable_named(name).index(label)
-    return fixed
+    soft = {wiring.number[name]: np.array(values) for name, values in likelihoods.items()}
+    return Given(labels, likelihoods, fixed, soft)

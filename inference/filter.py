@@ -1,28 +1,30 @@
-"""The forward filter: exact sum-product over one time step of the sparse map.
+"""The forward filter: exact sum-product over one time step of the sparse map, factor by factor.
 
-    Q(s_t, p_t) ∝ A_o[o_t, s_t] c_t(s_t) A_p(p_t, s_t) Σ B_s[a](s_t, s_t-1) B_p[a](p_t, p_t-1) Q(s_t-1, p_t-1)
+    Q(s_t, p_t) ∝ Π P(reading | s_t) P(p_t | s_t) Σ P(s_t | s_t-1, a) P(p_t | p_t-1, a) Q(s_t-1, p_t-1)
 
-with the latent `moved_t`: with a small probability the agent was put into any visited place instead.
+with the latent `moved_t`: with a small probability the agent was put into any visited place instead. What the factors
+are, and which there are, is the model's business.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.cognitive_map import CognitiveMap
-from ..model.distinct import distinct
-from ..model.slices import found_shut
-from .message import Belief, Evidence, FilterOptions, Message
+from ..model import CogmapError, GenerativeModel, Percept, Successors, distinct
+from .errors import ImpossibleEvidence
+from .message import Belief, Message
 
-FAINT = 1e-8
+PRUNED = 1e-8
 """Odds beside the most probable place from which on another one may matter later (see `rivals`)."""
 
 FEW = 50
 """Visited places that are looked at one and all."""
+
+SMALL = 1e-250
+"""Likelihoods that are all below are brought up, so that none is rounded to zero."""
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -30,151 +32,181 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True)
 class _Candidates:
-    """Weighted pairs `[m]` before the evidence of this step.
+    """Weighted pairs `[m]` of a place and a pose.
 
-    `source` indexes the message they come from; `told` is what the evidence has to be multiplied by (see `found_shut`);
-    `factors` are P(o | s) and P(c | s).
+    `weight` is their mass before the evidence, `source` the pair of the message that they come from, `coupling` that of
+    the transition, and `likelihoods` `[m, F]` what the sensors say, all of them together up to a factor exp(`scale`):
+    one is taken out where the numbers would be too small.
     """
 
     places: Ints
     positions: Ints
     weight: Floats
     source: Ints
-    told: Floats
-    factors: Floats
+    coupling: Floats
+    likelihoods: Floats
+    scale: float
+
+    @classmethod
+    def seen(
+        cls,
+        model: GenerativeModel,
+        percept: Percept,
+        places: Ints,
+        positions: Ints,
+        weight: Floats,
+        source: Ints,
+        coupling: Floats | None = None,
+    ) -> _Candidates:
+        """These pairs in the light of what is sensed."""
+        told, scale = model.likelihoods(places, percept), 0.0
+        if told.size and np.multiply.reduce(told, axis=1).max() < SMALL:
+            log = model.log_likelihood(places, percept)
+            scale = float(log.max())
+            told[:, :-1], told[:, -1] = 1.0, np.exp(log - scale)
+        coupling = np.ones(len(places)) if coupling is None else coupling
+        return cls(places, positions, weight, source, coupling, told, scale)
 
     def joined(self, others: _Candidates) -> _Candidates:
         """These, then the others."""
-        pairs = ((getattr(self, name), getattr(others, name)) for name in self.__slots__)
-        return _Candidates(*(np.concatenate(pair) for pair in pairs))
+        scale = max(self.scale, others.scale)
+        these, those = self.scaled(scale), others.scaled(scale)
+        return _Candidates(
+            np.concatenate([these.places, those.places]),
+            np.concatenate([these.positions, those.positions]),
+            np.concatenate([these.weight, those.weight]),
+            np.concatenate([these.source, those.source]),
+            np.concatenate([these.coupling, those.coupling]),
+            np.concatenate([these.likelihoods, those.likelihoods]),
+            scale,
+        )
+
+    def scaled(self, scale: float) -> _Candidates:
+        """With this factor taken out instead."""
+        if scale == self.scale:
+            return self
+        told = self.likelihoods.copy()
+        told[:, -1] *= np.exp(self.scale - scale)
+        return replace(self, likelihoods=told, scale=scale)
 
     @property
     def joint(self) -> Floats:
-        """`[m]` their joint masses with the evidence."""
-        return self.weight * self.told * np.multiply.reduce(self.factors, axis=1)
+        """`[m]` their joint masses with the evidence, up to the factor."""
+        return self.weight * self.coupling * np.multiply.reduce(self.likelihoods, axis=1)
 
 
-def begin(map_: CognitiveMap, place: int, evidence: Evidence) -> Belief:
+def begin(model: GenerativeModel, place: int, percept: Percept) -> Belief:
     """The belief of an agent that knows to be in `place`, after its first evidence."""
-    start = np.array([place])
-    here, one, like = np.zeros(1, dtype=np.int64), np.ones(1), factors(map_, start, evidence.sight, evidence.open)
-    prior = _Candidates(start, map_.position_index[start], one, here, one, like)
-    return _update(map_, None, prior, None, evidence, FilterOptions(support=0.0))
+    here = np.array([place])
+    prior = _Candidates.seen(model, percept, here, model.pose.of(here), np.ones(1), np.zeros(1, dtype=np.int64))
+    return _update(model, None, prior, None, support=0.0)
 
 
-def advance(map_: CognitiveMap, message: Message, evidence: Evidence, options: FilterOptions) -> Belief:
-    """The belief after one more action and its evidence."""
-    walked = _walk(map_, message, evidence, options)
-    share = float(walked.joint.sum())
-    if options.displacement <= options.support * share:  # even a perfect match elsewhere would be dropped
-        return _update(map_, message, walked, None, evidence, options)
-    displaced, left_out = _displaced(map_, walked, evidence, options)
-    return _update(map_, message, walked, displaced, evidence, options, left_out=left_out)
+def advance(model: GenerativeModel, message: Message, percept: Percept, *, support: float = 1e-3) -> Belief:
+    """The belief after one more action and what is sensed then; places below `support` leave it."""
+    if percept.action is None:
+        raise CogmapError("filter: the percept has no action; use begin() for the first one")
+    places, pair = distinct(message.places)
+    stays = model.pose.stays(percept.action, opened=percept.opened)
+    ahead = model.transitions.predict(places, percept.action, percept, stays=stays)
+    walked = _walk(model, message, percept, ahead.of(pair))
+    displacement = _probability(model)
+    share = float(walked.joint.sum()) * np.exp(walked.scale)
+    if displacement <= support * share:  # even a perfect match elsewhere would be dropped
+        return _update(model, message, walked, None, support=support, ahead=ahead)
+    displaced, left_out = _displaced(model, walked, percept, support)
+    return _update(model, message, walked, displaced, support=support, left_out=left_out, ahead=ahead)
 
 
-def factors(map_: CognitiveMap, places: Ints, sight: int, open_: Sequence[bool]) -> Floats:
-    """`[n, 2]` P(o | s) and P(c | s): the sight, and the doors as sensed, given each place."""
-    found = np.empty((len(places), 2))
-    found[:, 0], found[:, 1] = map_.A_o.probability(sight, places), map_.doors_likelihood(places, open_)
-    return found
-
-
-def likelihood(map_: CognitiveMap, places: Ints, sight: int, open_: Sequence[bool]) -> Floats:
-    """`[n]` P(o, c | s): the product of `factors`."""
-    return np.multiply.reduce(factors(map_, places, sight, open_), axis=1)
-
-
-def _walk(map_: CognitiveMap, message: Message, evidence: Evidence, options: FilterOptions) -> _Candidates:
-    """Where the action leads: each successor, with the position moved or not, where A_p allows the two together."""
-    action = evidence.action
-    assert action is not None
-    keys, p, _ = map_.B_s.mean(map_.rows(message.places, action))
-    moves = 1.0 - options.slip if evidence.was_open else options.slip
-    if action == map_.motions.stay:
-        moves = 1.0
-    ahead = map_.position_beyond[message.positions, action]
-    told = found_shut(map_, message.places, keys, p, action, evidence.open, slip=1.0 - moves)
-    p = p * (message.mass[:, None] * (1.0 - options.displacement))
-    source, slot = np.nonzero((keys >= 0) & (p > 0.0))
-    places, p, told = keys[source, slot], p[source, slot], told[source, slot]
-    positions = np.concatenate([ahead[source], message.positions[source]])
-    places, source = np.concatenate([places, places]), np.concatenate([source, source])
-    weight = np.concatenate([p * moves, p * (1.0 - moves)]) * map_.A_p.probability(positions, places)
+def _walk(model: GenerativeModel, message: Message, percept: Percept, ahead: Successors) -> _Candidates:
+    """Where the action leads: each successor with each pose that it may have then."""
+    p = ahead.probability * (message.mass[:, None] * (1.0 - _probability(model)))
+    source, slot = np.nonzero((ahead.places >= 0) & (p > 0.0))
+    places, p, coupling = ahead.places[source, slot], p[source, slot], ahead.coupling[source, slot]
+    poses = model.pose.predict(message.positions, percept.action or 0, opened=percept.opened)
+    positions = np.concatenate([pose[source] for pose, _ in poses])
+    weight = np.concatenate([p * probability for _, probability in poses])
+    kinds = len(poses)
+    places, source, coupling = np.tile(places, kinds), np.tile(source, kinds), np.tile(coupling, kinds)
+    weight *= model.pose.fit(positions, places)
     fits = np.flatnonzero((positions >= 0) & (weight > 0.0))
-    places, told = places[fits], np.concatenate([told, told])[fits]
-    like = factors(map_, places, evidence.sight, evidence.open)
-    return _Candidates(places, positions[fits], weight[fits], source[fits], told, like)
+    return _Candidates.seen(model, percept, places[fits], positions[fits], weight[fits], source[fits], coupling[fits])
 
 
 def _displaced(
-    map_: CognitiveMap, walked: _Candidates, evidence: Evidence, options: FilterOptions
+    model: GenerativeModel, walked: _Candidates, percept: Percept, support: float
 ) -> tuple[_Candidates, float]:
-    """The visited places where the agent may have been put, and the joint mass of those left out, at most.
+    """The visited places where the agent may have been put, and log of the joint mass of those left out, at most.
 
     Left out are only places of which neither the belief nor its rivals would hear: most have never shown the sight.
     """
-    visited = map_.visited_places
-    if len(visited) <= FEW:
-        return _put_into(map_, visited, evidence, options), 0.0
-    listed, bound = map_.visited_with(evidence.sight)
-    entered = walked.places[map_.visited[walked.places]]
-    if 2 * len(listed) + FEW < len(visited):
-        places = np.union1d(listed, entered)
-        some = _put_into(map_, places, evidence, options)
-        best = max(float(part.joint.max(initial=0.0)) for part in (walked, some))
-        each = bound * options.displacement / len(visited)
-        if each < min(options.support, FAINT) * best:
+    visited = model.visits.order.values
+    found = None if len(visited) <= FEW else model.candidates(percept)
+    if found is not None and 2 * len(found[0]) + FEW < len(visited):
+        entered = walked.places[model.visits.visited.values[walked.places]]
+        places = np.union1d(found[0], entered)
+        some = _put_into(model, places, percept)
+        best = max(float(part.joint.max(initial=0.0)) * np.exp(part.scale) for part in (walked, some))
+        each = found[1] * _probability(model) / len(visited)
+        if each < min(support, PRUNED) * best:
             return some, each * (len(visited) - len(places))
-    return _put_into(map_, visited, evidence, options), 0.0
+    return _put_into(model, visited, percept), 0.0
 
 
-def _put_into(map_: CognitiveMap, places: Ints, evidence: Evidence, options: FilterOptions) -> _Candidates:
-    """These of the visited places, with their positions, all alike."""
-    keys, p, _ = map_.A_p.mean(places)
-    like = factors(map_, places, evidence.sight, evidence.open).repeat(keys.shape[1], axis=0)
-    places = np.repeat(places, keys.shape[1])
-    weight = (p * (options.displacement / max(len(map_.visited_places), 1))).ravel()
-    real = weight > 0.0
-    count = int(real.sum())
-    positions = keys.ravel()[real]
-    return _Candidates(places[real], positions, weight[real], np.full(count, -1), np.ones(count), like[real])
+def _probability(model: GenerativeModel) -> float:
+    return 0.0 if model.displacement is None else model.displacement.probability
+
+
+def _put_into(model: GenerativeModel, places: Ints, percept: Percept) -> _Candidates:
+    """These of the visited places, with their poses, all alike."""
+    positions, p = model.pose.spread(places)
+    weight = p * (_probability(model) / max(len(model.visits.order), 1))
+    row, slot = np.nonzero(weight > 0.0)
+    nowhere = np.full(len(row), -1)
+    return _Candidates.seen(model, percept, places[row], positions[row, slot], weight[row, slot], nowhere)
 
 
 def _update(
-    map_: CognitiveMap,
+    model: GenerativeModel,
     message: Message | None,
     walked: _Candidates,
     displaced: _Candidates | None,
-    evidence: Evidence,
-    options: FilterOptions,
     *,
+    support: float,
     left_out: float = 0.0,
+    ahead: Successors | None = None,
 ) -> Belief:
     all_ = walked if displaced is None else walked.joined(displaced)
-    pairs, pair = distinct(all_.places * len(map_.positions) + all_.positions)
-    pair_places, pair_positions = np.divmod(pairs, len(map_.positions))
+    if not len(all_.weight):
+        raise ImpossibleEvidence("filter: the action leads nowhere in this model; give displacement or slip a chance")
+    size = max(len(model.pose.positions), 1)
+    pairs, pair = distinct(all_.places * size + all_.positions)
+    pair_places, pair_positions = np.divmod(pairs, size)
     predicted = np.bincount(pair, weights=all_.weight, minlength=len(pairs))
-    told = all_.weight * all_.told
-    like = np.empty((len(pairs), 2))
-    like[pair] = all_.factors
-    joint = np.bincount(pair, weights=told, minlength=len(pairs)) * np.multiply.reduce(like, axis=1)
-    total = joint.sum()
-    kept = _support(pair_places, joint / total, options.support)
+    told = np.empty((len(pairs), all_.likelihoods.shape[1]))
+    told[pair] = all_.likelihoods
+    coupled = np.bincount(pair, weights=all_.weight * all_.coupling, minlength=len(pairs))
+    joint = coupled * np.multiply.reduce(told, axis=1)
+    total = float(joint.sum())
+    kept = _support(pair_places, joint / total, support)
     z = float(joint[kept].sum())
-    q = joint[kept] / z
+    evidence = float(np.log(z)) + all_.scale
     count = len(walked.weight)
-    walked_mass = np.where(kept[pair[:count]], walked.joint, 0.0) / z
-    unexamined = 0.0 if displaced is not None or message is None else options.displacement / (options.displacement + z)
+    walked_mass = np.where(kept[pair[:count]], walked.scaled(all_.scale).joint, 0.0) / z
+    unexamined = 0.0
+    if displaced is None and message is not None:
+        unexamined = _probability(model) / (_probability(model) + np.exp(evidence))
     return Belief(
-        message=Message(pair_places[kept], pair_positions[kept], q),
-        evidence=float(np.log(z)),
-        log_likelihood=np.log(joint[kept] / predicted[kept]),
-        factors=like[kept],
+        message=Message(pair_places[kept], pair_positions[kept], joint[kept] / z),
+        evidence=evidence,
+        log_likelihood=np.log(joint[kept] / predicted[kept]) + all_.scale,
+        likelihoods=told[kept],
         moved=max(0.0, 1.0 - float(walked_mass.sum())) if displaced is not None else 0.0,
-        dropped=1.0 - z / (float(total) + left_out) + unexamined,
+        dropped=1.0 - z / (total + left_out * np.exp(min(-all_.scale, 700.0))) + unexamined,
         examined=displaced is not None,
-        walks=_walks(message, walked, walked_mass),
-        faint=(pair_places[~kept], joint[~kept] / z),
+        pairwise=_pairwise(message, walked, walked_mass),
+        pruned=(pair_places[~kept], joint[~kept] / z),
+        ahead=ahead,
     )
 
 
@@ -185,7 +217,7 @@ def _support(places: Ints, q: Floats, threshold: float) -> NDArray[np.bool_]:
     return (mass >= min(threshold, float(mass.max())))[index]
 
 
-def _walks(message: Message | None, walked: _Candidates, mass: Floats) -> tuple[Ints, Ints, Floats]:
+def _pairwise(message: Message | None, walked: _Candidates, mass: Floats) -> tuple[Ints, Ints, Floats]:
     if message is None:
         none = np.zeros(0, dtype=np.int64)
         return none, none, np.zeros(0)

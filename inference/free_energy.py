@@ -13,11 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
-from ..model.factors import Factor, FloatArray
-from .evidence import all_evidence, fixed_indices
-from .posterior import Posterior, expected_log
+from ..model import AllEvidence, CogmapError, Factor, FactorGraph, FloatArray
+from .evidence import given
+from .posterior import Name, Posterior, expected_log
 from .query import infer
 
 LIKELIHOOD_KINDS = frozenset({"sight", "walls", "likelihood"})
@@ -71,16 +69,16 @@ def free_energy(
         likelihood: which factors are likelihoods; by default `is_likelihood`.
         engine: computes Z_R.
     """
-    graph = posterior.graph.observe_all(posterior.evidence)
+    graph = _with_likelihoods(posterior.graph.without_evidence(), posterior.evidence, posterior.likelihoods)
     expected = {factor.label: posterior.expected_log(factor) for factor in graph.factors}
     return _parts(graph, expected, posterior.entropy, posterior.log_evidence, likelihood, engine)
 
 
 def free_energy_of(
     graph: FactorGraph,
-    q: Mapping[str, ArrayLike],
+    q: Mapping[Name, ArrayLike],
     *,
-    evidence: Mapping[str, Hashable] | None = None,
+    evidence: AllEvidence | None = None,
     likelihood: Callable[[Factor], bool] | None = None,
     engine: str = "numpy",
 ) -> FreeEnergy:
@@ -96,7 +94,8 @@ def free_energy_of(
     Raises:
         CogmapError: a latent variable is missing from `q`, or its probabilities are none.
     """
-    graph = graph.observe_all(all_evidence(graph, evidence))
+    known = given(graph, evidence)
+    graph = _with_likelihoods(graph.without_evidence(), known.labels, known.likelihoods)
     beliefs = _checked(graph, q)
     expected = {factor.label: _factorised_log(factor, beliefs) for factor in graph.factors}
     entropy = -sum(expected_log(belief, belief) for belief in beliefs.values())
@@ -135,15 +134,24 @@ def _parts(
     )
 
 
-def _checked(graph: FactorGraph, q: Mapping[str, ArrayLike]) -> dict[str, FloatArray]:
+def _with_likelihoods(
+    graph: FactorGraph, labels: Mapping[str, Hashable], likelihoods: Mapping[str, tuple[float, ...]]
+) -> FactorGraph:
+    """The graph with these labels as evidence, and soft evidence as factors: likelihoods, like those of sights."""
+    graph = graph.observe_all(labels)
+    for name, values in likelihoods.items():
+        graph.factor("evidence", [name], values, kind="likelihood")
+    return graph
+
+
+def _checked(graph: FactorGraph, q: Mapping[Name, ArrayLike]) -> dict[str, FloatArray]:
     """q for every variable: as given for the latent ones, one-hot for those that are known."""
-    fixed = fixed_indices(graph, graph.evidence)
-    for name in q:
-        graph.variable_named(name)
+    fixed = given(graph).fixed
+    q = {graph.variable_named(name).name: belief for name, belief in q.items()}
     beliefs: dict[str, FloatArray] = {}
-    for variable in graph.variables:
-        if variable.name in fixed:
-            beliefs[variable.name] = np.eye(variable.cardinality)[fixed[variable.name]]
+    for number, variable in enumerate(graph.variables):
+        if number in fixed:
+            beliefs[variable.name] = np.eye(variable.cardinality)[fixed[number]]
             continue
         if variable.name not in q:
             raise CogmapError(f"free energy: q has nothing for {variable.name!r}; give its probabilities")

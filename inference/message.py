@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ..model import CogmapError, Successors, is_number
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -45,22 +46,26 @@ class Message:
         """The places that hold mass, in ascending order, and Q(s)."""
         return _summed(self.places, self.mass)
 
+    @cached_property
+    def ranked(self) -> dict[int, float]:
+        """Q(s) of the places that hold mass, the most probable first."""
+        return _ranked(self.places, self.mass)
 
-@dataclass(frozen=True, slots=True)
-class Evidence:
-    """What was done and then sensed at one time step.
+    @cached_property
+    def place(self) -> int:
+        """The most probable place."""
+        places, mass = self.by_place
+        return int(places[mass.argmax()])
 
-    Attributes:
-        action: the action that led here; None at the first step.
-        was_open: whether its door had been sensed open before.
-        sight: number of the sight.
-        open: for each action, whether its way is open here.
-    """
+    @cached_property
+    def certainty(self) -> float:
+        """Q of the most probable place."""
+        return float(self.by_place[1].max())
 
-    action: int | None
-    was_open: bool
-    sight: int
-    open: Sequence[bool]
+    @classmethod
+    def sure(cls, place: int, pose: int) -> Message:
+        """That of an agent that knows where it is."""
+        return cls(np.array([place]), np.array([pose]), np.ones(1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,11 +76,19 @@ class FilterOptions:
         displacement: P(moved_t): the agent was put into some visited place without being told.
         slip: P that a motion through an open door does not change the position, or through a blocked one does.
         support: posterior mass below which a place leaves the support.
+
+    Raises:
+        CogmapError: one is no number from 0 to 1.
     """
 
     displacement: float = 1e-4
     slip: float = 1e-4
     support: float = 1e-3
+
+    def __post_init__(self) -> None:
+        for name, value in asdict(self).items():
+            if not is_number(value, 0.0, 1.0):
+                raise CogmapError(f"settings: filter.{name} is {value!r}; use a number from 0 to 1")
 
 
 def _nothing() -> tuple[Ints, Floats]:
@@ -88,15 +101,17 @@ class Belief:
 
     Attributes:
         message: Q(s_t, p_t | o_1..t).
-        evidence: log P(o_t, c_t | the past), in nats, of what was kept.
-        log_likelihood: `[n]` log P(o_t, c_t | s_t) for each pair of the message, in nats.
+        evidence: log P(o_t | the past), in nats, of what was kept; o_t is all that was sensed.
+        log_likelihood: `[n]` log P(o_t | s_t) for each pair of the message, in nats.
         moved: P(moved_t | o_1..t).
         dropped: posterior mass that was left out of the support, at most.
         examined: whether being displaced was examined; if not, all of it would have been dropped.
-        walks: pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`.
+        pairwise: pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`.
         doubt: probability that the belief went astray at an earlier step; see `rivals`.
-        factors: `[n, 2]` P(o_t | s_t) and P(c_t | s_t) for each pair of the message; empty in a belief that was loaded.
-        faint: places that were dropped from the support, and their mass beside the kept ones'.
+        likelihoods: `[n, F]` P(reading | s_t) of each sensor that sensed something, all together up to one factor;
+            empty in a belief that was loaded.
+        pruned: places that were dropped from the support, and their mass beside the kept ones'.
+        ahead: where the action may have led from each place of the step before; None at first, and if loaded.
     """
 
     message: Message
@@ -105,14 +120,15 @@ class Belief:
     moved: float
     dropped: float
     examined: bool
-    walks: tuple[Ints, Ints, Floats]
+    pairwise: tuple[Ints, Ints, Floats]
     doubt: float = 0.0
-    factors: Floats = field(default_factory=lambda: np.zeros((0, 2)))
-    faint: tuple[Ints, Floats] = field(default_factory=_nothing)
+    likelihoods: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    pruned: tuple[Ints, Floats] = field(default_factory=_nothing)
+    ahead: Successors | None = None
 
     @property
     def accuracy(self) -> float:
-        """E_Q[log P(o_t, c_t | s_t)], in nats."""
+        """E_Q[log P(o_t | s_t)], in nats."""
         return float(self.message.mass @ self.log_likelihood)
 
     @property
@@ -125,15 +141,25 @@ class Belief:
         """F = complexity - accuracy = -log evidence (eq. 3, at the exact posterior), in nats."""
         return self.complexity - self.accuracy
 
-    @cached_property
+    @property
     def places(self) -> dict[int, float]:
         """Q(s_t) of the places that hold mass, the most probable first."""
-        return _ranked(self.message.places, self.message.mass)
+        return self.message.ranked
 
-    @property
+    @cached_property
     def positions(self) -> dict[int, float]:
         """Q(p_t) of the positions (by number) that hold mass, the most probable first."""
         return _ranked(self.message.positions, self.message.mass)
+
+    @property
+    def place(self) -> int:
+        """The most probable place."""
+        return self.message.place
+
+    @property
+    def certainty(self) -> float:
+        """Q of the most probable place."""
+        return self.message.certainty
 
     def committed(self) -> Belief:
         """The belief with the most probable place alone in its support; what the others held is dropped.
@@ -142,28 +168,17 @@ class Belief:
         """
         at = self.message.places == self.place
         kept = float(self.message.mass[at].sum())
-        previous, next_, mass = self.walks
+        previous, next_, mass = self.pairwise
         there = next_ == self.place
         message = Message(self.message.places[at], self.message.positions[at], self.message.mass[at] / kept)
-        walks = (previous[there], next_[there], mass[there] / kept)
+        pairwise = (previous[there], next_[there], mass[there] / kept)
         return replace(
             self,
             message=message,
             log_likelihood=self.log_likelihood[at],
-            factors=self.factors[at],
+            likelihoods=self.likelihoods[at],
             evidence=self.evidence + float(np.log(kept)),
-            moved=max(0.0, 1.0 - float(walks[2].sum())) if self.examined else 0.0,
+            moved=max(0.0, 1.0 - float(pairwise[2].sum())) if self.examined else 0.0,
             dropped=1.0 - kept * (1.0 - self.dropped),
-            walks=walks,
+            pairwise=pairwise,
         )
-
-    @cached_property
-    def place(self) -> int:
-        """The most probable place."""
-        places, mass = self.message.by_place
-        return int(places[mass.argmax()])
-
-    @cached_property
-    def certainty(self) -> float:
-        """Q of the most probable place."""
-        return float(self.message.by_place[1].max())

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.cognitive_map import CognitiveMap
-from .filter import FAINT, factors, likelihood
-from .message import Belief, Evidence, Message
+from ..model import CognitiveMap, Percept
+from .filter import PRUNED
+from .message import Belief, Message
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -93,9 +93,10 @@ class Rivals:
 def rivals_of(map_: CognitiveMap, belief: Belief, *, step: int, visits: int) -> Rivals:
     """The places that `belief` holds possible besides the most probable one, just before it commits to that."""
     places, mass = belief.message.by_place
-    places, mass = np.concatenate([places, belief.faint[0]]), np.concatenate([mass, belief.faint[1]])
+    places, mass = np.concatenate([places, belief.pruned[0]]), np.concatenate([mass, belief.pruned[1]])
     odds = mass / mass[places == belief.place].sum()
-    held = (places != belief.place) & (odds > FAINT) & (map_.position_index[places] >= 0)
+    held = (places != belief.place) & (odds > PRUNED)
+    held &= np.array([map_.position(place) is not None for place in places.tolist()], dtype=np.bool_)
     positions = [map_.position(place) for place in places[held].tolist()]
     steps, many = np.full(len(positions), step), np.full(len(positions), visits)
     dimensions = len(map_.motions.displacements[0])
@@ -103,7 +104,7 @@ def rivals_of(map_: CognitiveMap, belief: Belief, *, step: int, visits: int) -> 
 
 
 def advance_rivals(
-    map_: CognitiveMap, rivals: Rivals, belief: Belief, evidence: Evidence, *, displacement: float
+    map_: CognitiveMap, rivals: Rivals, belief: Belief, percept: Percept, *, displacement: float
 ) -> Rivals:
     """The rivals after one more action and its evidence; `belief` is what is carried on.
 
@@ -113,24 +114,25 @@ def advance_rivals(
     parted: then their odds stay as they are. Being in no known place explains nothing better than the belief does,
     or any wrong sight would speak for it.
     """
-    if not len(rivals) or evidence.action is None:
+    if not len(rivals) or percept.action is None:
         return rivals
-    ahead = map_.motions.displacements[evidence.action] if evidence.was_open else 0
+    ahead = map_.motions.displacements[percept.action] if percept.opened else 0
     positions = rivals.positions + np.asarray(ahead)
     found = (map_.place_at(tuple(position)) for position in positions.tolist())
     places = np.array([-1 if place is None else place for place in found])
     known = (places >= 0) & map_.visited[places] & ~_since(map_, places, rivals.visits)
     parted = _since(map_, np.full(len(rivals), belief.place), rivals.visits) | ~map_.visited[belief.place]
-    anything = 0.5 ** (len(map_.motions) - 1) / map_.A_o.outcomes
+    anything = float(np.exp(map_.log_predictive(percept)))
     chance = displacement * anything  # of what nothing explains
     explained = max(float(np.exp(belief.evidence)), chance)
     gain = np.where(parted, 1.0, min(anything / explained, 1.0))
-    gain[known] = np.maximum(likelihood(map_, places[known], evidence.sight, evidence.open), chance) / explained
+    likely = np.multiply.reduce(map_.likelihoods(places[known], percept), axis=1)
+    gain[known] = np.maximum(likely, chance) / explained
     odds, coincidence = np.minimum(rivals.odds * gain, SURE), np.minimum(rivals.coincidence * gain, SURE)
     contradicted = belief.moved >= 0.5 or explained == chance
     if not contradicted:
         odds = np.minimum(odds, COINCIDENCE)
-    return Rivals(positions, rivals.since, rivals.visits, odds, coincidence).kept(odds > FAINT)
+    return Rivals(positions, rivals.since, rivals.visits, odds, coincidence).kept(odds > PRUNED)
 
 
 def _since(map_: CognitiveMap, places: Ints, visits: Ints) -> NDArray[np.bool_]:
@@ -138,19 +140,18 @@ def _since(map_: CognitiveMap, places: Ints, visits: Ints) -> NDArray[np.bool_]:
     return (places >= 0) & (map_.first_visit[places] >= visits)
 
 
-def certain_of(map_: CognitiveMap, place: int, evidence: Evidence, *, odds: float, instead_of: Belief) -> Belief:
+def certain_of(map_: CognitiveMap, place: int, percept: Percept, *, odds: float, instead_of: Belief) -> Belief:
     """The belief of an agent that has found out that it is in `place`, at these odds against what it believed."""
     here, none = np.array([place]), np.zeros(0, dtype=np.int64)
-    like = factors(map_, here, evidence.sight, evidence.open)
-    log_likelihood = np.log(like.prod(axis=1))
+    log_likelihood = map_.log_likelihood(here, percept)
     before = np.log(odds) + instead_of.evidence - log_likelihood[0]  # log odds before this evidence
     return Belief(
-        message=Message(here, map_.position_index[here], np.ones(1)),
+        message=Message.sure(place, int(map_.pose.of(here)[0])),
         evidence=float(log_likelihood[0] - np.logaddexp(0.0, -before)),
         log_likelihood=log_likelihood,
         moved=1.0,
         dropped=0.0,
         examined=True,
-        walks=(none, none, np.zeros(0)),
-        factors=like,
+        pairwise=(none, none, np.zeros(0)),
+        likelihoods=map_.likelihoods(here, percept),
     )

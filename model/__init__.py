@@ -1,62 +1,198 @@
-"""What an agent believes: growing domains, Dirichlet tables, the factor graph, learning, growth."""
+"""What an agent believes: the generative model as a list of factors, its log of changes, growth, the graph language."""
 
 from __future__ import annotations
 
-from .cognitive_map import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, CognitiveMap, Priors
-from .conditional import ConditionalTable, LearnableTable
-from .dirichlet import SparseDirichlet
+from .changes import STEPS, Branch, Change, Changes, Entry, Store
+from .cognitive_map import CognitiveMap
+from .dirichlet import EMPTY, SparseDirichlet
+from .distinct import distinct
 from .domain import Domain
 from .errors import CogmapError
-from .factor_graph import FactorGraph
-from .factors import Factor, SparseValues
-from .growth import GROWTHS, Growth, growth_named
-from .growth_log import GrowthEvent
+from .factors import (
+    BLOCKED,
+    ELSEWHERE,
+    OPEN,
+    POSES,
+    SENSORS,
+    UNKNOWN,
+    Context,
+    Displacement,
+    Lattice,
+    ModelFactor,
+    NoPose,
+    Pose,
+    Sensor,
+    Sight,
+    Successors,
+    Support,
+    Table,
+    Transition,
+    Ways,
+)
+from .files import make_folder, write_through, write_whole
+from .generative import GenerativeModel
+from .graph import (
+    MOST_DRAWN,
+    AllEvidence,
+    Before,
+    ConditionalTable,
+    Evidence,
+    Factor,
+    FactorGraph,
+    FloatArray,
+    IntArray,
+    LabelledTable,
+    LearnableTable,
+    SparseValues,
+    Template,
+    Variable,
+    before,
+    equation,
+    graph_svg,
+    labelled,
+    log_bounds,
+    quoted,
+    sparse_values,
+    table,
+)
+from .graph.exchange import (
+    load_graph,
+    read_bif,
+    read_uai,
+    read_uai_evidence,
+    read_xmlbif,
+    save_graph,
+    write_bif,
+    write_graphml,
+    write_uai,
+    write_uai_evidence,
+    write_xmlbif,
+)
+from .growth import GROWTHS, Growth, ObservedGrowth, PredictedGrowth, StaticGrowth, Whereabouts, place_beyond
+from .growth_event import KINDS, GrowthEvent
 from .growth_table import GrownPlace, GrowthDifference, growth_between, growth_table
-from .learning import TABLE_RATES, TEXT_RATES, Learner, Rates
-from .lesson import Lesson
-from .map_tables import map_table
+from .information import dirichlet_information
+from .labels import decode, encode, identity, plain, shown
+from .map_graph import LEAST, how_known, map_graph, transitions
+from .map_state import map_state, restore_map
+from .map_tables import counts_of, map_table
+from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
+from .percept import Percept
+from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .slices import Slice, take_slice, window_graph
-from .tables import LabelledTable, labelled, table
-from .variables import Variable
+from .updates import ParameterUpdate, updates
 
 __all__ = [
     "BLOCKED",
     "ELSEWHERE",
+    "EMPTY",
     "GROWTHS",
+    "KINDS",
+    "LEAST",
+    "MOST_DRAWN",
     "OPEN",
+    "POSES",
+    "SENSORS",
+    "STEPS",
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
+    "AllEvidence",
+    "Before",
+    "Branch",
+    "Change",
+    "Changes",
     "CogmapError",
     "CognitiveMap",
     "ConditionalTable",
+    "Context",
+    "Displacement",
     "Domain",
+    "Entry",
+    "Evidence",
     "Factor",
     "FactorGraph",
+    "FloatArray",
+    "GenerativeModel",
     "GrownPlace",
     "Growth",
     "GrowthDifference",
     "GrowthEvent",
+    "IntArray",
     "LabelledTable",
+    "Lattice",
     "LearnableTable",
-    "Learner",
-    "Lesson",
+    "ModelFactor",
     "MotionSpec",
     "Motions",
+    "NoPose",
+    "ObservedGrowth",
+    "ParameterUpdate",
+    "Percept",
+    "Pose",
     "Position",
+    "PredictedGrowth",
     "Priors",
     "Rates",
+    "Sensor",
+    "Sight",
     "Slice",
     "SparseDirichlet",
     "SparseValues",
+    "StaticGrowth",
+    "Store",
+    "Successors",
+    "Support",
+    "Table",
+    "Template",
+    "Transition",
     "Variable",
+    "Ways",
+    "Whereabouts",
+    "before",
+    "counts_of",
+    "decode",
+    "dirichlet_information",
+    "distinct",
+    "encode",
+    "equation",
+    "graph_svg",
     "growth_between",
-    "growth_named",
     "growth_table",
+    "how_known",
+    "html_table",
+    "identity",
+    "is_number",
     "labelled",
+    "load_graph",
+    "log_bounds",
+    "make_folder",
+    "map_graph",
+    "map_state",
     "map_table",
+    "place_beyond",
+    "plain",
+    "quoted",
+    "read_bif",
+    "read_uai",
+    "read_uai_evidence",
+    "read_xmlbif",
+    "restore_map",
+    "safe",
+    "save_graph",
+    "shown",
+    "sparse_values",
     "table",
     "take_slice",
+    "transitions",
+    "updates",
     "window_graph",
+    "write_bif",
+    "write_graphml",
+    "write_through",
+    "write_uai",
+    "write_uai_evidence",
+    "write_whole",
+    "write_xmlbif",
 ]

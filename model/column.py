@@ -1,41 +1,100 @@
-"""Arrays that grow by appending."""
+"""Arrays that grow along with the places or positions of a map."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
+from .changes import Change, Changes
+from .errors import CogmapError
+
 
 class Column:
-    """A numpy array that grows along its first axis; appending is amortised."""
+    """A numpy array that grows along its first axis, amortised; what is set is logged, how long it is is not.
 
-    __slots__ = ("_array", "_length")
+    Args:
+        name: unique in its map.
+        dtype: of the array.
+        width: of a row; None for one number a row.
+        fill: what new rows hold.
+        changes: the log that is told; none unless given.
+    """
 
-    def __init__(self, dtype: DTypeLike, *, width: int | None = None) -> None:
-        self._array = np.zeros((8,) if width is None else (8, width), dtype=dtype)
+    __slots__ = ("_array", "_changes", "_fill", "_length", "name")
+
+    def __init__(
+        self,
+        name: str,
+        dtype: DTypeLike,
+        *,
+        width: int | None = None,
+        fill: float = 0,
+        changes: Changes | None = None,
+    ) -> None:
+        self.name = name
+        self._fill = fill
+        self._changes = changes
+        self._array = np.full((8,) if width is None else (8, width), fill, dtype=dtype)
         self._length = 0
 
     def __len__(self) -> int:
         return self._length
 
     @property
-    def values(self) -> NDArray[np.generic]:
-        """View of what was appended; writing to it writes here."""
+    def values(self) -> NDArray[Any]:
+        """View of the rows in use; what is written to it is not logged."""
         return self._array[: self._length]
 
-    def append(self, value: object) -> int:
-        """Append one entry (or one row); returns its index."""
-        if self._length == len(self._array):
-            self._array = np.concatenate([self._array, np.zeros_like(self._array)])
-        self._array[self._length] = value
-        self._length += 1
-        return self._length - 1
-
-    def shrink(self, length: int) -> None:
-        """Keep the first `length` entries."""
+    def resize(self, length: int) -> None:
+        """Have so many rows: new ones are appended, or the last are dropped."""
+        self._array[length : self._length] = self._fill
+        while length > len(self._array):
+            self._array = np.concatenate([self._array, np.full_like(self._array, self._fill)])
         self._length = length
 
-    def restore(self, values: NDArray[np.generic]) -> None:
-        """Take over `values`."""
-        self._array = np.concatenate([values.astype(self._array.dtype), np.zeros_like(self._array[:8])])
-        self._length = len(values)
+    def append(self, value: object) -> int:
+        """Append one row; returns its index."""
+        self.resize(self._length + 1)
+        self._array[self._length - 1] = value
+        return self._length - 1
+
+    def set(self, where: int | tuple[int, int], value: int) -> None:
+        """Write one cell."""
+        old = self._array.item(where)
+        if old != value:
+            self._array[where] = value
+            if self._changes is not None:
+                self._changes.append(Change(self, where, old, value))
+
+    def put(self, where: int | tuple[int, int], value: int) -> None:
+        """Write one cell without telling the log."""
+        self._array[where] = value
+
+    def value(self, numbers: Sequence[float]) -> int:
+        """A number of a cell, from a file."""
+        return int(numbers[0])
+
+    def touched(self, where: int | tuple[int, int]) -> Iterable[int]:
+        """The row, where rows are places."""
+        return (where[0] if isinstance(where, tuple) else where,)
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """A copy of the rows in use, for saving."""
+        return {"values": self.values.copy()}
+
+    def restore(self, values: NDArray[Any], *, least: float = -inf, bound: float = inf) -> None:
+        """Take over the values of as many rows as it has, each in [least, bound).
+
+        Raises:
+            CogmapError: they are others.
+        """
+        fits = values.shape == self.values.shape and values.dtype.kind in "ib"
+        if not (fits and bool(((values >= least) & (values < bound)).all())):
+            raise CogmapError(
+                f"map: {self.name} does not fit {len(self)} rows of {least:g} to {bound:g}; save it again"
+            )
+        self.values[:] = values

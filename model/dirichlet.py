@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from math import inf
 from operator import add
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .changes import Change, Changes
 from .errors import CogmapError
-from .journal import Journal
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -33,18 +35,47 @@ class SparseDirichlet:
     their prior. Appending rows is amortised: storage doubles. Prior and evidence of a row, and their sum, are added up
     when they change, not when they are read.
 
-    Attributes:
+    Args:
+        slots: outcomes of a row that there is room for; more is made when it is needed.
         background: concentration of every outcome of the domain, whether it has a slot or not.
         outcomes: size of the domain; matters only where `background` is positive.
-        journal: of the rows that change.
+        name: symbol of the table, unique in its map.
+        rows_each: rows that a place has.
+        changes: the log that is told what changes; none unless given.
+
+    Attributes:
+        name, background, outcomes, rows_each: as given; only `outcomes` may be set.
     """
 
-    __slots__ = ("_alpha", "_evidence", "_keys", "_prior", "_rows", "_total", "background", "journal", "outcomes")
+    __slots__ = (
+        "_alpha",
+        "_changes",
+        "_evidence",
+        "_keys",
+        "_prior",
+        "_rows",
+        "_total",
+        "background",
+        "name",
+        "outcomes",
+        "rows_each",
+    )
 
-    def __init__(self, *, slots: int, background: float = 0.0, outcomes: int = 0) -> None:
+    def __init__(
+        self,
+        *,
+        slots: int,
+        background: float = 0.0,
+        outcomes: int = 0,
+        name: str = "table",
+        rows_each: int = 1,
+        changes: Changes | None = None,
+    ) -> None:
+        self.name = name
         self.background = background
         self.outcomes = outcomes
-        self.journal = Journal()
+        self.rows_each = rows_each
+        self._changes = changes
         self._rows = 0
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
@@ -60,32 +91,57 @@ class SparseDirichlet:
         """Bytes of storage in use."""
         return self._rows * (self._keys.shape[1] * 32 + 8)
 
-    def append(self, rows: int) -> int:
-        """Append empty rows; returns the index of the first."""
-        first = self._rows
-        self._rows += rows
+    def resize(self, rows: int) -> None:
+        """Have so many rows: empty ones are appended, or the last are dropped; not logged."""
         capacity, slots = self._keys.shape
-        if self._rows > capacity:
-            self._resize(max(self._rows, 2 * capacity), slots)
-        return first
-
-    def shrink(self, rows: int) -> None:
-        """Keep the first `rows` rows."""
+        if rows > capacity:
+            self._resize(max(rows, 2 * capacity), slots)
         self._keys[rows : self._rows] = EMPTY
         for array in (self._prior, self._evidence, self._alpha, self._total):
             array[rows : self._rows] = 0.0
         self._rows = rows
-        self.journal.note(None)
+
+    def begin(self, rows: slice, keys: Ints, prior: Floats) -> None:
+        """What rows that were just appended know: outcomes `[n, k]` and their priors; not logged."""
+        width = keys.shape[1]
+        self._keys[rows, :width], self._prior[rows, :width] = keys, prior
+        self._add_up(rows)
 
     def _add_up(self, rows: Ints | slice = slice(None)) -> None:
         self._alpha[rows] = self._prior[rows] + self._evidence[rows]
         self._total[rows] = reduce(add, self._alpha[rows].T)  # slot by slot, as `_set` does
 
-    def _set(self, row: int, slot: int, *, prior: float, evidence: float) -> None:
-        self._prior[row, slot], self._evidence[row, slot] = prior, evidence
-        self._alpha[row, slot] = prior + evidence
-        self._total[row] = reduce(add, self._alpha[row].tolist())
-        self.journal.note(row)
+    def _set(self, row: int, slot: int, key: int, prior: float, evidence: float) -> None:
+        old = self._keys.item(row, slot), self._prior.item(row, slot), self._evidence.item(row, slot)
+        new = key, prior, evidence
+        if new != old:
+            self.put((row, slot), new)
+            if self._changes is not None:
+                self._changes.append(Change(self, (row, slot), old, new))
+
+    def put(self, where: tuple[int, int] | None, value: tuple[int, float, float] | Floats | float) -> None:
+        """Write one slot: its outcome, prior and evidence; or all evidence, or the factor that it is multiplied by."""
+        if isinstance(value, tuple):
+            row, slot = where or (0, 0)
+            self._keys[row, slot], self._prior[row, slot], self._evidence[row, slot] = value
+            self._alpha[row, slot] = value[1] + value[2]
+            self._total[row] = reduce(add, self._alpha[row].tolist())
+            return
+        evidence = self._evidence[: self._rows]
+        if isinstance(value, np.ndarray):
+            evidence[:] = 0.0
+            evidence[:, : value.shape[1]] = value
+        else:
+            evidence *= value
+        self._add_up()
+
+    def value(self, numbers: Sequence[float]) -> tuple[int, float, float]:
+        """Outcome, prior and evidence of a slot, from a file."""
+        return int(numbers[0]), numbers[1], numbers[2]
+
+    def touched(self, where: tuple[int, int] | None) -> Iterable[int] | None:
+        """The place whose row it is."""
+        return None if where is None else (where[0] // self.rows_each,)
 
     def _resize(self, rows: int, slots: int) -> None:
         self._keys = _grown(self._keys, (rows, slots), EMPTY).astype(np.int64)
@@ -95,21 +151,19 @@ class SparseDirichlet:
         self._add_up()
 
     def _slot(self, row: int, key: int) -> int:
-        """Slot of `key` in `row`; taken anew where it has none."""
+        """Slot of `key` in `row`; a free one where it has none."""
         keys = self._keys[row].tolist()
         if key in keys:
             return keys.index(key)
         if EMPTY not in keys:
             self._resize(self._keys.shape[0], 2 * self._keys.shape[1])
-            return self._slot(row, key)
-        slot = keys.index(EMPTY)
-        self._keys[row, slot] = key
-        return slot
+            return len(keys)
+        return keys.index(EMPTY)
 
     def expect(self, row: int, key: int, prior: float) -> None:
         """Give outcome `key` of `row` a prior of its own."""
         slot = self._slot(row, key)
-        self._set(row, slot, prior=prior, evidence=self._evidence.item(row, slot))
+        self._set(row, slot, key, prior, self._evidence.item(row, slot))
 
     def rename(self, row: int, old: int, new: int) -> None:
         """Let the slot of outcome `old` stand for `new`, with the counts it has.
@@ -119,9 +173,8 @@ class SparseDirichlet:
         """
         if new in self._keys[row].tolist():
             raise CogmapError(f"table: outcome {new} of row {row} has counts already; rename to an outcome without")
-        slot = self._slot(row, old)  # may put larger arrays in place
-        self._keys[row, slot] = new
-        self.journal.note(row)
+        slot = self._slot(row, old)
+        self._set(row, slot, new, self._prior.item(row, slot), self._evidence.item(row, slot))
 
     def add(self, row: int, key: int, amount: float, *, most: float = inf) -> float:
         """Add evidence (negative takes away) for `key` in `row`, `most` in all; returns what was really added."""
@@ -131,7 +184,7 @@ class SparseDirichlet:
         before = self._evidence.item(row, slot)
         after = min(max(before + amount, 0.0), max(before, most))
         if after != before:
-            self._set(row, slot, prior=self._prior.item(row, slot), evidence=after)
+            self._set(row, slot, key, self._prior.item(row, slot), after)
         return after - before
 
     def evidence(self, row: int, key: int) -> float:
@@ -143,11 +196,12 @@ class SparseDirichlet:
         """Evidence of `row` by outcome, prior left out."""
         return dict(zip(self._keys[row].tolist(), self._evidence[row].tolist(), strict=True))
 
-    def fade(self, rows: Ints | slice, keep: float) -> None:
-        """Multiply the evidence of `rows` by `keep`, in [0, 1]: what was learned long ago fades."""
-        self._evidence[rows] *= keep
-        self._add_up(rows)
-        self.journal.note(None)
+    def fade(self, keep: float) -> None:
+        """Multiply all evidence by `keep`, in [0, 1]: what was learned long ago fades."""
+        old = self._evidence[: self._rows].copy()
+        self.put(None, keep)
+        if self._changes is not None:
+            self._changes.append(Change(self, None, old, keep))
 
     def keys(self, rows: Ints | slice) -> Ints:
         """`[n, slots]` outcomes that have a slot in `rows` (`EMPTY` where unused)."""
@@ -211,18 +265,35 @@ class SparseDirichlet:
         table[-1] = np.maximum(1.0 - table[:-1].sum(axis=0), 0.0)
         return table
 
-    def state(self) -> dict[str, NDArray[np.generic]]:
+    def state(self) -> dict[str, NDArray[Any]]:
         """Copies of the arrays that hold every count, for saving."""
         rows = slice(self._rows)
         parts = {"keys": self._keys, "prior": self._prior, "evidence": self._evidence}
         return {name: part[rows].copy() for name, part in parts.items()}
 
-    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Take over what `state` returned."""
-        self._keys = state["keys"].astype(np.int64)
-        self._prior = state["prior"].astype(np.float64)
-        self._evidence = state["evidence"].astype(np.float64)
-        self._rows = self._keys.shape[0]
+    def restore(self, state: Mapping[str, NDArray[Any]], *, outcomes: float = inf) -> None:
+        """Take over what `state` returned of a table of as many rows, over so many outcomes at most.
+
+        Raises:
+            CogmapError: it is of another table, or holds what is no count.
+        """
+        keys, prior, evidence = (state[part] for part in ("keys", "prior", "evidence"))
+        fits = keys.ndim == 2 and len(keys) == self._rows and keys.shape == prior.shape == evidence.shape
+        fits = fits and all(_within(counts, 0, inf) for counts in (prior, evidence))
+        if not (fits and keys.dtype.kind == "i" and _within(keys, EMPTY, outcomes)):
+            where = f"{self._rows} rows of {outcomes:g} outcomes"
+            raise CogmapError(f"map: the counts of {self.name} do not fit {where}; save it again")
+        self._keys = keys.astype(np.int64)
+        self._prior, self._evidence = prior.astype(np.float64), evidence.astype(np.float64)
         self._alpha, self._total = np.zeros_like(self._prior), np.zeros(self._rows)
         self._add_up()
-        self.journal.note(None)
+
+
+def _within(numbers: NDArray[Any], least: float, bound: float) -> bool:
+    """Whether all numbers are in [least, bound); a NaN is not."""
+    return numbers.dtype.kind in "ibf" and bool(((numbers >= least) & (numbers < bound)).all())
+
+
+def parts_of(name: str, arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """The state of the table of that name among the arrays of a file."""
+    return {part: arrays[f"{name}.{part}"] for part in ("keys", "prior", "evidence")}

@@ -10,6 +10,8 @@ Ints = NDArray[np.int64]
 
 def distinct(values: Ints) -> tuple[Ints, Ints]:
     """The distinct values, ascending, and `[n]` the index of each value among them."""
+    if len(values) == 1:
+        return values, np.zeros(1, dtype=np.int64)
     order = values.argsort(kind="stable")
     ordered = values[order]
     first = np.ones(len(values), dtype=np.bool_)

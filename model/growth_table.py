@@ -6,17 +6,17 @@ from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
-from .cognitive_map import CognitiveMap
 from .errors import CogmapError
-from .growth_log import GrowthEvent
+from .generative import GenerativeModel
+from .graph import LabelledTable
+from .growth_event import GrowthEvent
 from .labels import shown
 from .motions import Position
-from .tables import LabelledTable
 
 if TYPE_CHECKING:
     from networkx import DiGraph
 
-Log = CognitiveMap | Sequence[GrowthEvent]
+Log = GenerativeModel | Sequence[GrowthEvent]
 """A map, whose actions have names, or a log alone."""
 
 MOST = 8  # items of one kind that a text lists
@@ -204,13 +204,13 @@ def _position(label: Hashable) -> Position:
 
 
 def _events(log: Log) -> Sequence[GrowthEvent]:
-    return log.growth if isinstance(log, CognitiveMap) else log
+    return log.growth if isinstance(log, GenerativeModel) else log
 
 
 def _action(log: Log, action: int | None) -> str | None:
     if action is None:
         return None
-    return log.motions.names[action] if isinstance(log, CognitiveMap) else f"action {action}"
+    return log.motions.names[action] if isinstance(log, GenerativeModel) else f"action {action}"
 
 
 def _listed(items: Sequence[object]) -> str:

@@ -8,31 +8,35 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .export import quoted
+from .factors import BLOCKED, OPEN, Sight
+from .graph import quoted
 from .labels import encode, plain, shown
+from .readable_map import ReadableMap
 
 if TYPE_CHECKING:
     import networkx as nx
 
-    from .cognitive_map import CognitiveMap
-
 LEAST = 1e-3  # probability of a sight that is told, and of a transition that Graphviz draws
 
 
-def map_graph(map_: CognitiveMap) -> nx.MultiDiGraph[Any]:
+def map_graph(map_: ReadableMap) -> nx.MultiDiGraph[Any]:
     """Places as nodes, transitions as edges keyed by action name.
 
     Nodes carry `position` (None where it has none), `visited` (else it was imagined only), and `sights`
-    (label -> probability above a thousandth). Edges carry `action`, `probability` (of B_s), `count` (the evidence
-    for it, prior left out), and `known`, what is known of this way out of the place: `walked`, `imagined` (its door
-    was sensed open), `refuted` (sensed blocked) or `unknown` (its door was never sensed from this side; it may still
-    have a `count`, which came with the way here). Beyond a door without a known place there is no edge.
+    (label -> probability above a thousandth; what another sensor of labels sees stands under its name). Edges carry
+    `action`, `probability` (of B_s), `count` (the evidence for it, prior left out), and `known`, what is known of this
+    way out of the place: `walked`, `imagined` (its door was sensed open), `refuted` (sensed blocked) or `unknown` (its
+    door was never sensed from this side; it may still have a `count`, which came with the way here). Beyond a door
+    without a known place there is no edge.
     """
     import networkx as nx
 
     graph: nx.MultiDiGraph[Any] = nx.MultiDiGraph()
-    for place, sights in zip(map_.places, _sights(map_), strict=True):
-        graph.add_node(place, position=map_.position(place), visited=bool(map_.visited[place]), sights=sights)
+    seen = [_sights(map_, sight) for sight in map_.sights_sensed]
+    names = ["sights", *(sight.name for sight in map_.sights_sensed[1:])]
+    for place in map_.places:
+        facts = dict(zip(names, (labels[place] for labels in seen), strict=False)) or {"sights": {}}
+        graph.add_node(place, position=map_.position(place), visited=bool(map_.visited[place]), **facts)
     for place, action, next_, probability, count in transitions(map_):
         name = map_.motions.names[action]
         known = how_known(map_, place, action)
@@ -40,7 +44,7 @@ def map_graph(map_: CognitiveMap) -> nx.MultiDiGraph[Any]:
     return graph
 
 
-def transitions(map_: CognitiveMap) -> Iterator[tuple[int, int, int, float, float]]:
+def transitions(map_: ReadableMap) -> Iterator[tuple[int, int, int, float, float]]:
     """Place, action, next place, P(s' | s, a) and the evidence for it, of every transition within the map."""
     rows = np.arange(len(map_.B_s))
     keys, p, _ = map_.B_s.mean(rows)
@@ -50,10 +54,8 @@ def transitions(map_: CognitiveMap) -> Iterator[tuple[int, int, int, float, floa
         yield place, action, int(keys[row, slot]), float(p[row, slot]), float(evidence[row, slot])
 
 
-def how_known(map_: CognitiveMap, place: int, action: int) -> str:
+def how_known(map_: ReadableMap, place: int, action: int) -> str:
     """What is known of the way that `action` takes out of `place`; see `map_graph`."""
-    from .cognitive_map import BLOCKED, OPEN
-
     if action == map_.motions.stay:
         return "walked"
     sensed = int(map_.sensed[place, action])
@@ -64,7 +66,7 @@ def how_known(map_: CognitiveMap, place: int, action: int) -> str:
     return "imagined" if sensed == OPEN else "unknown"
 
 
-def map_node_link(map_: CognitiveMap) -> dict[str, Any]:
+def map_node_link(map_: ReadableMap) -> dict[str, Any]:
     """The map as plain JSON values in networkx' node-link layout: `networkx.node_link_graph(values, edges="edges")`.
 
     Nodes carry `sights` as a list of `{"sight", "probability"}`; tuples in labels are written `{"tuple": [...]}`.
@@ -85,12 +87,12 @@ def map_node_link(map_: CognitiveMap) -> dict[str, Any]:
     }
 
 
-def map_json(map_: CognitiveMap, *, indent: int | None = None) -> str:
+def map_json(map_: ReadableMap, *, indent: int | None = None) -> str:
     """`map_node_link` as text."""
     return json.dumps(map_node_link(map_), allow_nan=False, indent=indent)
 
 
-def map_dot(map_: CognitiveMap) -> str:
+def map_dot(map_: ReadableMap) -> str:
     """Graphviz source: visited places are filled, imagined ones dashed; a wall (a way back to itself) is not drawn.
 
     Positions are given as `pos`, rows downwards, for `neato -n2`; `dot` lays out by itself. A transition is as dark
@@ -110,27 +112,30 @@ def map_dot(map_: CognitiveMap) -> str:
     return "\n".join([*lines, "}"]) + "\n"
 
 
-def _sights(map_: CognitiveMap) -> list[dict[object, float]]:
-    """Of each place its sights above a thousandth, the most probable first."""
+def _sights(map_: ReadableMap, sight: Sight) -> list[dict[object, float]]:
+    """Of each place its labels above a thousandth, the most probable first."""
     sights: list[dict[object, float]] = [{} for _ in map_.places]
-    keys, p, _ = map_.A_o.mean(np.arange(len(sights)))
+    keys, p, _ = sight.table.mean(np.arange(len(sights)))
     order = np.argsort(-p, axis=1, kind="stable")
     for place, (row, ranked) in enumerate(zip(keys.tolist(), order.tolist(), strict=True)):
         for slot in ranked:
             if row[slot] >= 0 and p[place, slot] > LEAST:
-                sights[place][map_.sights[row[slot]]] = float(p[place, slot])
+                sights[place][sight.labels[row[slot]]] = float(p[place, slot])
     return sights
 
 
-def _displacements(map_: CognitiveMap) -> list[list[int]]:
+def _displacements(map_: ReadableMap) -> list[list[int]]:
     return [list(vector) for vector in map_.motions.displacements]
 
 
 def _plain_place(facts: dict[str, Any]) -> dict[str, Any]:
     position = None if facts["position"] is None else list(facts["position"])
-    pairs = facts["sights"].items()
-    sights = [{"sight": encode(plain(sight), where="map"), "probability": p} for sight, p in pairs]
-    return {**facts, "position": position, "sights": sights}
+    seen = {
+        name: [{"sight": encode(plain(label), where="map"), "probability": p} for label, p in labels.items()]
+        for name, labels in facts.items()
+        if isinstance(labels, dict)
+    }
+    return {**facts, "position": position, **seen}
 
 
 def _dot_place(place: int, facts: dict[str, Any]) -> str:

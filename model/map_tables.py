@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .cognitive_map import ELSEWHERE, CognitiveMap
 from .dirichlet import SparseDirichlet
+from .domain import Domain
 from .errors import CogmapError
+from .factors import ELSEWHERE
+from .graph import LabelledTable
 from .labels import plain
-from .tables import LabelledTable
-
-OTHER = {"A_o": "(any other sight)", "A_p": "(no position)", "B_s": "(elsewhere)"}
-"""Label of the last row: what has no row of its own."""
+from .readable_map import ReadableMap
 
 
 def map_table(
-    map_: CognitiveMap, name: str, *, action: str | int | None = None, places: Sequence[int] | None = None
+    map_: ReadableMap, name: str, *, action: str | int | None = None, places: Sequence[int] | None = None
 ) -> LabelledTable:
     """The expected probabilities of a table, with labels; axes as in the arrays: `[outcome, place]`.
 
@@ -35,20 +33,32 @@ def map_table(
     Raises:
         CogmapError: no such table, action or place; `B_s` without an action, or another table with one.
     """
-    if name not in OTHER:
-        raise CogmapError(f"map: no table {name!r}; choose one of {', '.join(OTHER)}")
+    if name not in map_.tables:
+        raise CogmapError(f"map: no table {name!r}; choose one of {', '.join(_names(map_))}")
     chosen = checked_places(map_, places)
     rows, title = _rows(map_, name, action, chosen)
-    outcomes, cells = _sparse(getattr(map_, name), rows)
-    labels = [_outcome(map_, name, key) for key in outcomes]
-    index = (*labels, OTHER[name])
-    return LabelledTable(cells, index, tuple(chosen.tolist()), OUTCOMES[name], ("place",), title)
+    outcomes, cells = _sparse(map_.tables[name], rows)
+    outcome, other, domain = _outcomes(map_, name)
+    index = (*(_label(domain, key) for key in outcomes), other)
+    return LabelledTable(cells, index, tuple(chosen.tolist()), outcome, ("place",), title)
 
 
-OUTCOMES = {"A_o": "sight", "A_p": "position", "B_s": "next place"}
+def _names(map_: ReadableMap) -> list[str]:
+    """Tables of labels, of positions, then of transitions."""
+    return sorted(map_.tables, key=lambda name: (name == "B_s", name == "A_p"))
 
 
-def checked_places(map_: CognitiveMap, places: Sequence[int] | None) -> NDArray[np.int64]:
+def _outcomes(map_: ReadableMap, name: str) -> tuple[str, str, Domain | None]:
+    """What the outcomes of a table are, what all others together are called, and their labels."""
+    if name == "B_s":
+        return "next place", "(elsewhere)", None
+    if name == "A_p":
+        return "position", "(no position)", map_.positions
+    sight = next(sight for sight in map_.sights_sensed if sight.symbol == name)
+    return sight.name, f"(any other {sight.name})", sight.labels
+
+
+def checked_places(map_: ReadableMap, places: Sequence[int] | None) -> NDArray[np.int64]:
     """The places asked for, or all.
 
     Raises:
@@ -62,7 +72,7 @@ def checked_places(map_: CognitiveMap, places: Sequence[int] | None) -> NDArray[
     return np.array(list(places), dtype=np.int64)
 
 
-def action_named(map_: CognitiveMap, action: str | int) -> int:
+def action_named(map_: ReadableMap, action: str | int) -> int:
     """Index of an action given by name or index.
 
     Raises:
@@ -77,17 +87,17 @@ def action_named(map_: CognitiveMap, action: str | int) -> int:
 
 
 def _rows(
-    map_: CognitiveMap, name: str, action: str | int | None, places: NDArray[np.int64]
+    map_: ReadableMap, name: str, action: str | int | None, places: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], str]:
     if name != "B_s":
         if action is not None:
             raise CogmapError(f"map: {name} has no actions; leave `action` out")
-        return places, f"{name}: P({OUTCOMES[name]} | place)"
+        return places, f"{name}: P({_outcomes(map_, name)[0]} | place)"
     if action is None:
         names = ", ".join(map_.motions.names)
         raise CogmapError(f"map: B_s is one table an action; give `action`, one of {names}")
     index = action_named(map_, action)
-    return map_.rows(places, index), f"B_s: P(next place | place, {map_.motions.names[index]})"
+    return places * len(map_.motions) + index, f"B_s: P(next place | place, {map_.motions.names[index]})"
 
 
 def _sparse(table: SparseDirichlet, rows: NDArray[np.int64]) -> tuple[list[int], NDArray[np.float64]]:
@@ -102,26 +112,24 @@ def _sparse(table: SparseDirichlet, rows: NDArray[np.int64]) -> tuple[list[int],
     return outcomes.tolist(), cells
 
 
-def _outcome(map_: CognitiveMap, name: str, key: int) -> Hashable:
-    if name == "B_s":
-        return key
-    return plain(map_.sights[key] if name == "A_o" else map_.positions[key])
+def _label(domain: Domain | None, key: int) -> Hashable:
+    return key if domain is None else plain(domain[key])
 
 
-def counts_of(map_: CognitiveMap, place: int) -> dict[str, dict[Hashable, float]]:
+def counts_of(map_: ReadableMap, place: int) -> dict[str, dict[Hashable, float]]:
     """The evidence for one place, prior left out: by table (`B_s[up]` for an action) and outcome.
 
     Raises:
         CogmapError: there is no such place.
     """
     checked_places(map_, [place])
-    found = {name: _counts(map_, name, getattr(map_, name).counts(place)) for name in ("A_o", "A_p")}
+    found = {name: _counts(map_, name, map_.tables[name].counts(place)) for name in _names(map_) if name != "B_s"}
     for action, motion in enumerate(map_.motions.names):
         found[f"B_s[{motion}]"] = _counts(map_, "B_s", map_.B_s.counts(map_.row(place, action)))
     return found
 
 
-def _counts(map_: CognitiveMap, name: str, counts: dict[int, float]) -> dict[Hashable, float]:
+def _counts(map_: ReadableMap, name: str, counts: dict[int, float]) -> dict[Hashable, float]:
     kept = {key: value for key, value in counts.items() if key >= ELSEWHERE and value > 0.0}
-    other = cast(Hashable, OTHER[name])
-    return {other if key == ELSEWHERE else _outcome(map_, name, key): value for key, value in kept.items()}
+    _, other, domain = _outcomes(map_, name)
+    return {other if key == ELSEWHERE else _label(domain, key): value for key, value in kept.items()}

@@ -1,31 +1,76 @@
 """What to do: policies, rollouts, expected free energy, choice."""
 
-from .choice import CHOICES, Plan, choose, plan, policy_posterior
+from .choices import CHOICES, TIE, Best, Choice, Outward, Sampled, Verdict
 from .energy import ExpectedFreeEnergy
-from .information import collected_information, dirichlet_information
-from .policies import GENERATORS, Policies, exhaustive, l_shaped, map_guided, self_avoiding
-from .reach import Reach
+from .information import dirichlet_information
+from .local import (
+    LocalCache,
+    LocalModel,
+    MapView,
+    Preferences,
+    Surroundings,
+    Transitions,
+    local_model,
+)
+from .plan import Plan, policy_posterior
+from .planner import Planner
+from .policies import POLICIES, Exhaustive, LShaped, MapGuided, Policies, PolicyGenerator, SelfAvoiding
 from .reference import evaluate_plain
 from .rollout import evaluate
-from .transitions import Transitions
+from .terms import (
+    TERMS,
+    Collision,
+    Learned,
+    PositionInformation,
+    Rollout,
+    SightInformation,
+    StateInformation,
+    Staying,
+    Step,
+    Term,
+    TransitionInformation,
+    Utility,
+)
 
 __all__ = [
     "CHOICES",
-    "GENERATORS",
+    "POLICIES",
+    "TERMS",
+    "TIE",
+    "Best",
+    "Choice",
+    "Collision",
+    "Exhaustive",
     "ExpectedFreeEnergy",
+    "LShaped",
+    "Learned",
+    "LocalCache",
+    "LocalModel",
+    "MapGuided",
+    "MapView",
+    "Outward",
     "Plan",
+    "Planner",
     "Policies",
-    "Reach",
+    "PolicyGenerator",
+    "PositionInformation",
+    "Preferences",
+    "Rollout",
+    "Sampled",
+    "SelfAvoiding",
+    "SightInformation",
+    "StateInformation",
+    "Staying",
+    "Step",
+    "Surroundings",
+    "Term",
+    "TransitionInformation",
     "Transitions",
-    "choose",
-    "collected_information",
+    "Utility",
+    "Verdict",
     "dirichlet_information",
     "evaluate",
     "evaluate_plain",
-    "exhaustive",
-    "l_shaped",
-    "map_guided",
-    "plan",
+    "local_model",
     "policy_posterior",
-    "self_avoiding",
 ]

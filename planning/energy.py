@@ -7,44 +7,61 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model import CogmapError
+from .terms import Term
+
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class ExpectedFreeEnergy:
-    """G(policy), term by term; each `[P]`, in nats, summed over the steps of the policy.
+    """G(policy), term by term, summed over the steps of each policy; `energy["utility"]` is one term, `[P]`.
 
     Attributes:
-        state_information: what the sights would tell about the place (eq. 5, eq. 8 inference).
-        sight_information: what they would teach about A_o (eq. 8 learning).
-        position_information: what the positions would teach about A_p (eq. 8 learning).
-        transition_information: what their doors would teach about B_s (eq. 8 learning).
-        utility: expected log preference of the sights and places (eq. 5).
-        collision: expected risk of collision (eq. 8).
+        terms: what G is the sum of, with their signs.
+        values: `[T, P]` of each term and policy, in nats, before its sign.
+
+    Raises:
+        CogmapError: there is not one row of values a term.
     """
 
-    state_information: Floats
-    sight_information: Floats
-    position_information: Floats
-    transition_information: Floats
-    utility: Floats
-    collision: Floats
+    terms: tuple[Term, ...]
+    values: Floats
+
+    def __post_init__(self) -> None:
+        if self.values.ndim != 2 or len(self.values) != len(self.terms):
+            shape, many = self.values.shape, len(self.terms)
+            raise CogmapError(f"expected free energy: values have shape {shape}; give a row for each of {many} terms")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the terms."""
+        return tuple(term.name for term in self.terms)
 
     @property
     def information(self) -> Floats:
         """`[P]` all information gains together."""
-        learned = self.sight_information + self.position_information + self.transition_information
-        return self.state_information + learned
+        return self.values[[term.kind == "information" for term in self.terms]].sum(axis=0)
 
     @property
     def G(self) -> Floats:
-        """`[P]` collision - information - utility; the least is best."""
-        return self.collision - self.information - self.utility
+        """`[P]` the sum of the terms, each with its sign; the least is best."""
+        return np.array([term.sign for term in self.terms]) @ self.values
+
+    def __getitem__(self, name: str) -> Floats:
+        """`[P]` the values of one term.
+
+        Raises:
+            CogmapError: no term has this name.
+        """
+        if name not in self.names:
+            raise CogmapError(f"expected free energy: no term is called {name!r}; there are {', '.join(self.names)}")
+        return self.values[self.names.index(name)]
 
     def __len__(self) -> int:
-        return len(self.utility)
+        return self.values.shape[1]
 
     def row(self, policy: int) -> dict[str, float]:
         """The terms of one policy by name, and `G`."""
-        one = ExpectedFreeEnergy(*(getattr(self, name)[[policy]] for name in self.__slots__))
-        return {**{name: float(getattr(one, name)[0]) for name in self.__slots__}, "G": float(one.G[0])}
+        values = dict(zip(self.names, self.values[:, policy].tolist(), strict=True))
+        return {**values, "G": float(self.G[policy])}

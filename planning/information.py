@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 
 Floats = NDArray[np.float64]
 
@@ -57,74 +54,6 @@ def dirichlet_information(alpha: ArrayLike, steps: int, *, multiplicity: ArrayLi
             urn[: n + 1] -= drawn
             urn[1 : n + 2] += drawn
     return np.cumsum(information, axis=-1)
-
-
-@dataclass(frozen=True, slots=True)
-class Lessons:
-    """What visits teach: tables I_s(0..N) laid out to be read at many numbers of visits at once.
-
-    Between integers I is linear, so I_s(x) = rise x + base on each piece; beyond N it is constant.
-
-    Attributes:
-        tables: `T` tables `[R, N + 1]`, N of each its own.
-        told: the `t` tables that are not all zero.
-        pieces: `[t, 2, R * (most + 1)]` base and rise of each told table on each piece of each place.
-        most: the largest N.
-    """
-
-    tables: Sequence[Floats]
-    told: list[int]
-    pieces: Floats
-    most: int
-
-    def collected(self, visits: Floats, reached: Floats) -> Floats:
-        """What expected visits teach: probability of any visit, times I of the visits there are then.
-
-        Args:
-            visits: `[n, R]` expected visits.
-            reached: `[n, R]` probability of any visit, at most `visits`.
-
-        Returns:
-            `[T, n]` nats, summed over places: sum_s reached I_s(visits / reached).
-        """
-        collected = np.zeros((len(self.tables), len(visits)))
-        row, place = np.nonzero(visits)
-        many, any_ = visits[row, place], reached[row, place]
-        piece = np.minimum(many / any_, self.most).astype(np.int64)
-        piece += place * (self.most + 1)
-        for i, (base, rise) in zip(self.told, self.pieces, strict=True):
-            worth = any_ * base[piece] + many * rise[piece]
-            collected[i] = np.bincount(row, weights=worth, minlength=len(visits))
-        return collected
-
-
-def lessons(tables: Sequence[Floats]) -> Lessons:
-    """Tables `[R, N + 1]` of information from 0..N visits, zero in column 0, made ready to be read."""
-    told = [i for i, table in enumerate(tables) if table.any()]
-    most = max(table.shape[1] for table in tables) - 1
-    if not told:
-        return Lessons(tables, told, np.zeros((0, 2, 0)), most)
-    pieces = np.zeros((len(told), 2, len(tables[0]), most + 1))
-    for (base, rise), table in zip(pieces, (tables[i] for i in told), strict=True):
-        last = table.shape[1] - 1
-        steps = rise[:, :last] = table[:, 1:] - table[:, :-1]
-        base[:, :last] = table[:, :-1] - np.arange(last) * steps
-        base[:, last:] = table[:, -1:]
-    return Lessons(tables, told, pieces.reshape(len(told), 2, len(tables[0]) * (most + 1)), most)
-
-
-def collected_information(tables: Sequence[Floats], visits: Floats, reached: Floats) -> Floats:
-    """What expected visits teach: `lessons(tables).collected(visits, reached)`.
-
-    Args:
-        tables: `T` tables `[R, N + 1]` of information from 0..N visits, zero in column 0.
-        visits: `[n, R]` expected visits.
-        reached: `[n, R]` probability of any visit, at most `visits`.
-
-    Returns:
-        `[T, n]` nats, summed over places: sum_s reached I_s(visits / reached).
-    """
-    return lessons(tables).collected(visits, reached)
 
 
 def _checked(alpha: ArrayLike, multiplicity: ArrayLike | None, steps: int) -> tuple[Floats, Floats]:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from cogmap.experiments.cells import Row
-from cogmap.experiments.exploring import ExploreRun
+from cogmap.experiments import ExploreRun, Row
 from cogmap.experiments.studies.grid import Grid
 from cogmap.experiments.studies.grid_rows import Cells
 
@@ -14,7 +13,7 @@ CAP = 30
 def row(agent: str, seed: int, steps: int | None, *, world: str = "3x3", growth: str = "predicted") -> Row:
     """A row in which everything took `steps` and the oracle 8."""
     run = ExploreRun(seed, (0, 0), steps, steps, steps, 8, 0.5)
-    return Row(world, agent, growth, run, "layout")
+    return Row(world, "layout", agent, growth, run)
 
 
 def cells(steps: dict[str, list[int | None]], *, cap: int = CAP, world: str = "3x3") -> Cells:

@@ -9,7 +9,7 @@ from typing import Any
 
 import networkx as nx
 from cogmap.agent import Agent, Settings
-from cogmap.views.recording import Recorder, Recording
+from cogmap.views import Recorder, Recording
 from cogmap.worlds import MazeEnv, load_world
 
 After = Callable[[Agent], None]
@@ -27,14 +27,14 @@ def recorded(
 ) -> Recording:
     """A walk in which things happen before the steps named; `after` is called after every step."""
     agent = Agent(world.motions, settings=Settings(**{"look_ahead": 3, **settings}), seed=seed)
-    recorder = Recorder(world.maze.sights if sights else None, title=world.maze.name)
+    recorder = Recorder(world.chart if sights else None, title=world.maze.name)
     world.reset(seed=seed)
     for step in range(steps):
         if events and step in events:
             events[step](world, agent)
         action = agent.step(world.observe())
         position, closed = world.position, world.closed_rooms
-        recorder.add(agent, position=position, closed_rooms=closed, closed_doors=world.closed_doors)
+        recorder.add(agent, place=position, closed_rooms=closed, closed_doors=world.closed_doors)
         after(agent)
         world.step(action)
     return recorder.recording()

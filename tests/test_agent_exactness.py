@@ -7,10 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.inference.message import FilterOptions
-from cogmap.planning import ExpectedFreeEnergy, Policies, evaluate_plain
-from cogmap.planning.horizon import cut_reach
-from cogmap.planning.preferences import Preferences
+from cogmap.inference import FilterOptions
+from cogmap.planning import TERMS, Policies, evaluate_plain, local_model
 from cogmap.worlds import MazeEnv, labyrinth, load_world
 from walks import walk
 
@@ -20,25 +18,26 @@ MANY = 1 << 30
 def assert_plain(agent: Agent) -> None:
     """G of every policy, and the tables that it comes from, worked out again from nothing."""
     plan, options = agent.plan, agent.settings
-    plain = evaluate_plain(plan.reach, Policies(plan.policies))
-    for name in ExpectedFreeEnergy.__slots__:
-        np.testing.assert_allclose(
-            getattr(plan.expected_free_energy, name), getattr(plain, name), atol=1e-9, err_msg=name
-        )
+    plain = evaluate_plain(plan.model, Policies(plan.policies))
+    for term in TERMS:
+        found, wanted = plan.expected_free_energy[term.name], plain[term.name]
+        np.testing.assert_allclose(found, wanted, atol=1e-9, err_msg=term.name)
     places, q = agent.belief.message.by_place
-    fresh = cut_reach(
+    fresh = local_model(
         agent.map,
         places,
         q,
         open_=agent.trace[-1].open,
         look_ahead=options.look_ahead,
-        preferences=Preferences(),
         discount=options.discount,
         starts=options.starts,
+        beyond=plan.generator.beyond,
     )
-    for name in ("places", "belief", "A", "sight_information", "transition_information", "successor", "collision"):
-        np.testing.assert_array_equal(getattr(plan.reach, name), getattr(fresh, name), err_msg=name)
-    np.testing.assert_array_equal(np.asarray(plan.reach.B), np.asarray(fresh.B))
+    for name in ("places", "belief", "A", "successor", "blocked", "entered", "position"):
+        np.testing.assert_array_equal(getattr(plan.model, name), getattr(fresh, name), err_msg=name)
+    for name, table in fresh.information.items():
+        np.testing.assert_array_equal(plan.model.information[name], table, err_msg=name)
+    np.testing.assert_array_equal(plan.model.B.dense, fresh.B.dense)
 
 
 @pytest.mark.parametrize("policies", ["map_guided", "self_avoiding"])

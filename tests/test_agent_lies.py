@@ -13,9 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.experiments.exploring import default_steps
-from cogmap.experiments.knowledge import BELIEVED, Truth
-from cogmap.experiments.session import Session, explored
+from cogmap.experiments import BELIEVED, Session, Truth, explored
 from cogmap.worlds import MAZES, Maze, MazeEnv, covering_walk
 from walks import GRID, assert_agent_is_sound
 
@@ -87,23 +85,22 @@ class Recovery:
 
 
 def lied_to(lie: Lie, name: str, seed: int, *, steps: int) -> Recovery:
-    session = explored("lies", MAZES[name], settings=None, seed=seed, most=default_steps(MAZES[name]))
+    session = explored("lies", MAZES[name], seed)
     assert session.steps is not None
     agent, world, rng = session.agent, session.world, np.random.default_rng(seed)
     places, truth = len(agent.map.places), Truth(world.maze, session.start)
     for step in range(steps):
         world.step(agent.step(lie(session, step, rng)))
         assert_agent_is_sound(agent)
-    astray, whole = [], []
+    astray, whole, taken = [], [], dict[str, int]()
     for tour in range(1 + TOURS):
         path = _tour(world) if tour else [None] * ALONE
         for led in path:
-            action = agent.step(world.observe())
+            action = agent.step({**world.observe(), **taken})
             astray.append(not agent.certain or agent.belief.place != session.true_place)
             whole.append(truth.learned(agent.map) and sights_are_right(session))
-            if led is not None:
-                agent._action = action = led
-            world.step(action)
+            taken = {} if led is None else {"taken": led}
+            world.step(action if led is None else led)
     assert_agent_is_sound(agent)
     return Recovery(
         certain=astray.index(False) if False in astray else None,

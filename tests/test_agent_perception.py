@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent
-from cogmap.agent.perception import perceive
-from cogmap.model import CogmapError, Motions
+from cogmap.model import CogmapError
 from walks import GRID
 
 OPEN = [True, False, True, False, True]
@@ -71,7 +70,9 @@ def test_a_bad_observation_is_refused_and_changes_nothing(name: str) -> None:
     ],
 )
 def test_sights_are_taken_as_plain_values(sight: Any, label: Any) -> None:
-    found, _ = perceive({"sight": sight, "open": OPEN}, Motions.of(GRID))
+    agent = Agent(GRID, seed=0)
+    agent.step({"sight": sight, "open": OPEN})
+    found = agent.trace[0].sight
     assert found == label
     assert not isinstance(found, np.generic | np.ndarray)
 
@@ -87,8 +88,50 @@ def test_sights_are_taken_as_plain_values(sight: Any, label: Any) -> None:
     ],
 )
 def test_doors_are_taken_in_any_form(doors: Any) -> None:
-    assert perceive({"sight": 1, "open": doors, "more": 3}, Motions.of(GRID)) == (1, tuple(OPEN))
+    agent = Agent(GRID, seed=0)
+    agent.step({"sight": 1, "open": doors, "more": 3})
+    assert agent.trace[0].open == tuple(OPEN)
 
 
 def test_staying_is_always_open() -> None:
-    assert perceive({"sight": 1, "open": [False] * 5}, Motions.of(GRID))[1] == (False, False, False, False, True)
+    agent = Agent(GRID, seed=0)
+    agent.step({"sight": 1, "open": [False] * 5})
+    assert agent.trace[0].open == (False, False, False, False, True)
+
+
+# -- what was really done --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("said", [3, "right", np.int64(3)])
+def test_an_agent_that_was_led_elsewhere_knows_where_it_is(said: Any) -> None:
+    agent = Agent(GRID, seed=0)
+    agent.step({"sight": "hall", "open": [False, False, False, True, True]})
+    agent.step({"sight": "room", "open": [False, False, True, False, True], "taken": said})
+    assert agent.map.position(agent.belief.place) == (0, 1)
+    assert agent.belief.moved < 0.01
+
+
+@pytest.mark.parametrize("said", [5, -1, "north", None, True, 1.0, [3]])
+def test_what_is_no_action_cannot_have_been_taken(said: Any) -> None:
+    agent = Agent(GRID, seed=0)
+    agent.step({"sight": 1, "open": OPEN})
+    with pytest.raises(CogmapError, match=r"observation: 'taken' is .*; give an action by name or index: up, down"):
+        agent.step({"sight": 1, "open": OPEN, "taken": said})
+    assert agent.steps == 1
+
+
+def test_one_perceives_plans_and_acts_in_turn() -> None:
+    whole, parts = Agent(GRID, seed=3), Agent(GRID, seed=3)
+    for sight in (1, 2, 1):
+        seen = {"sight": sight, "open": OPEN}
+        action = whole.step(seen)
+        assert parts.perceive(seen) is parts.belief
+        assert parts.plan.action == parts.act() == action
+        assert whole.trace == parts.trace
+    with pytest.raises(CogmapError, match=r"perceived nothing since its last action; call perceive\(observation\)"):
+        parts.act()
+    parts.perceive(seen)
+    with pytest.raises(CogmapError, match=r"not acted on the last observation; call act\(\), or say what was 'taken'"):
+        parts.perceive(seen)
+    parts.perceive({**seen, "taken": "stay"})
+    assert parts.steps == 5

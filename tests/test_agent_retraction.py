@@ -9,8 +9,7 @@ import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.experiments import Truth
 from cogmap.inference.rivals import COINCIDENCE, Rivals
-from cogmap.model import GROWTHS, TABLE_RATES, CogmapError, CognitiveMap, Learner, Motions, growth_named
-from cogmap.model.map_state import map_arrays
+from cogmap.model import GROWTHS, CognitiveMap, Growth, Motions, Whereabouts, map_state, updates
 from cogmap.worlds import MAZES, MazeEnv
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -35,7 +34,7 @@ def moved_while_exploring(name: str, seed: int, *, save: Path | None = None) -> 
         row, column = world.position
         here = agent.map.place_at((row - start[0], column - start[1]))
         wrong += agent.certain and agent.belief.place != here
-        if save is not None and len(agent._rivals) and not save.exists():
+        if save is not None and agent.belief.doubt > 0.0 and not save.exists():
             agent.save(save)
             agent = Agent.load(save)
         world.step(action)
@@ -57,7 +56,7 @@ def test_a_saved_agent_can_still_change_its_mind(tmp_path: Path) -> None:
         plain, right, _ = moved_while_exploring("donut", seed)
         saved, still, _ = moved_while_exploring("donut", seed, save=tmp_path / f"{seed}.npz")
         assert right == still
-        arrays, others = map_arrays(plain.map), map_arrays(saved.map)
+        arrays, others = map_state(plain.map)[1], map_state(saved.map)[1]
         assert all(np.array_equal(array, others[key]) for key, array in arrays.items())
         changed += (tmp_path / f"{seed}.npz").exists() and any(r.retracted is not None for r in saved.trace)
     assert changed
@@ -71,57 +70,51 @@ steps = st.lists(
 )
 
 
+def made(growth: str) -> Growth:
+    return GROWTHS[growth](*([40] if growth == "static" else []))
+
+
 def live(
-    map_: CognitiveMap, learner: Learner, growth: str, events: list[tuple[int, tuple[bool, ...], int, float]]
+    map_: CognitiveMap, growth: str, events: list[tuple[int, tuple[bool, ...], int, float]], *, first: int
 ) -> None:
-    way = growth_named(growth)
-    for step, (at, open_, action, weight) in enumerate(events, start=len(learner.chapters)):
-        learner.begin(step)
-        learner.forget(0.9)
+    way = made(growth)
+    for step, (at, open_, action, weight) in enumerate(events, start=first):
+        map_.transitions.forget(0.9)
         place = at % len(map_.places)
         if growth != "static" or map_.position(place) is not None:
-            way.enter(map_, place, action, step=step)
-            for new in way.look(map_, place, open_, step=step):
-                learner.recall(new)
+            here = Whereabouts({place: 1.0})
+            way.enter(map_, here, action, step=step)
+            map_.recall(way.look(map_, here, open_, step=step))
         map_.mark_visited(place)
-        learner.sight(place, map_.new_sight(at, step=step), weight)
-        learner.doors(place, open_, weight)
+        map_.sensors["sight"].learn(place, map_.sensors["sight"].read(at, step=step), weight)
+        map_.sensors["open"].learn(place, open_, weight)
         beyond = map_.beyond(place, action)
-        learner.transition(place, action, place if beyond is None else beyond, weight)
+        map_.transitions.learn(place, action, place if beyond is None else beyond, weight)
 
 
 @given(before=steps, after=steps.filter(bool), growth=st.sampled_from(sorted(GROWTHS)))
 @settings(max_examples=60, deadline=None)
 def test_taking_back_restores_the_map(before: list, after: list, growth: str) -> None:  # type: ignore[type-arg]
     map_ = CognitiveMap(Motions.of(GRID))
-    growth_named(growth).begin(map_, places=40, step=0)
-    learner = Learner(map_, TABLE_RATES, memory=100)
-    live(map_, learner, growth, before)
-    learner.begin(len(learner.chapters))
-    B, A, tables = map_.B(), map_.positions_given_places(), map_arrays(map_)
-    since = len(learner.chapters)
-    learner.take_lessons()
-    live(map_, learner, growth, after)
-    learner.take_back(since, step=99)
+    made(growth).begin(map_, step=0)
+    live(map_, growth, before, first=1)
+    tables, known = map_state(map_)[1], len(map_.positions)
+    mark = map_.changes.mark()
+    live(map_, growth, after, first=50)
+    map_.take_back(mark, step=99)
     assert_map_is_sound(map_)
-    np.testing.assert_allclose(map_.B(), B, atol=1e-9)
-    np.testing.assert_allclose(map_.positions_given_places()[: len(A) - 1], A[:-1], atol=1e-9)
-    for name in ("position_of", "visited", "visits", "sensed", "walked"):
-        np.testing.assert_array_equal(map_arrays(map_)[f"map.{name}"], tables[f"map.{name}"])
-    total: dict[tuple[object, ...], float] = {}
-    for lesson in learner.take_lessons():  # what was learned and what undid it
-        key = (lesson.table, lesson.outcome, lesson.place, lesson.action)
-        total[key] = total.get(key, 0.0) + lesson.amount
-    assert all(abs(amount) < 1e-9 for amount in total.values())
-
-
-def test_what_is_not_remembered_cannot_be_taken_back() -> None:
-    map_ = CognitiveMap(Motions.of(GRID))
-    learner = Learner(map_, TABLE_RATES, memory=2)
-    for step in range(4):
-        learner.begin(step)
-    with pytest.raises(CogmapError, match="step 1 is not remembered; those since 2 are"):
-        learner.take_back(1, step=3)
+    for name, array in map_state(map_)[1].items():
+        if not name.startswith(("changes", "growth")):
+            old = tables[name]
+            now = array[:known] if name in ("place_at.values",) else array  # what was met stays met
+            slots = old.shape[1] if old.ndim > 1 else None
+            np.testing.assert_array_equal(now if slots is None else now[:, :slots], old, err_msg=name)
+    amounts = [update.amount for update in updates(map_.changes.since(mark)[0] or ())]
+    assert amounts[: len(amounts) // 2] == [-amount for amount in reversed(amounts[len(amounts) // 2 :])]
+    events = [event.kind for event in map_.growth]
+    assert events.count("place") - sum(event.index for event in map_.growth if event.kind == "retract") == len(
+        map_.places
+    )
 
 
 def test_of_two_rivals_at_one_position_the_one_that_explains_more_stays() -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.inference.message import FilterOptions
+from cogmap.inference import FilterOptions
 from cogmap.worlds import MazeEnv, load_world
 from cogmap.worlds.generate import random_maze
 from hypothesis import given
@@ -64,10 +64,11 @@ def test_walks_through_random_mazes_that_change(
     world = MazeEnv(random_maze(rooms, sights=sights, rng=rng))
     agent = Agent(world.motions, settings=Settings(places=100, **given_options), seed=seed)
     observation, _ = world.reset(seed=seed)
+    action = STAY  # which is not heard before the first step
     for step in range(25):
-        action = agent.step(observation)
+        action = agent.step({**observation, "taken": action})
         if steer:
-            agent._action = action = int(rng.integers(5))
+            action = int(rng.integers(5))
         assert_agent_is_sound(agent)
         assert agent.steps == len(agent.trace) == step + 1
         assert len(agent.graph.factors) > 0

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.inference.message import FilterOptions
+from cogmap.inference import FilterOptions
 from cogmap.model import TEXT_RATES, CogmapError, Priors, Rates
 from hypothesis import given
 from hypothesis import settings as budget
@@ -58,19 +58,10 @@ WRONG_KIND: list[dict[str, Any]] = [
     {"discount": 1.5},
     {"discount": NAN},
     {"rates": 3},
-    {"rates": Rates(possible=(NAN, 1.0))},
-    {"rates": Rates(likelihood=-1.0)},
+    {"look_ahead": True},
+    {"window": False},
     {"filter": None},
-    {"filter": FilterOptions(displacement=2.0)},
-    {"filter": FilterOptions(displacement=-1.0)},
-    {"filter": FilterOptions(slip=NAN)},
-    {"filter": FilterOptions(support=-1.0)},
     {"priors": None},
-    {"priors": Priors(sight=0.0)},
-    {"priors": Priors(sight=-1.0)},
-    {"priors": Priors(transition=0.0)},
-    {"priors": Priors(position=0.0)},
-    {"priors": Priors(door_floor=0.7)},
 ]
 
 
@@ -78,6 +69,35 @@ WRONG_KIND: list[dict[str, Any]] = [
 def test_values_of_the_wrong_kind_are_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(CogmapError, match=r"^settings: "):
         Settings(**wrong)
+
+
+RECORDS: list[tuple[type[Any], dict[str, Any]]] = [
+    (Rates, {"possible": (NAN, 1.0)}),
+    (Rates, {"possible": 3}),
+    (Rates, {"possible": (3.0,)}),
+    (Rates, {"impossible": (1.0, 2.0, 3.0)}),
+    (Rates, {"imagined": ("a", "b")}),
+    (Rates, {"imagined": (True, 1.0)}),
+    (Rates, {"likelihood": -1.0}),
+    (Rates, {"likelihood": INF}),
+    (Rates, {"ceiling": 0.0}),
+    (FilterOptions, {"displacement": 2.0}),
+    (FilterOptions, {"displacement": -1.0}),
+    (FilterOptions, {"slip": NAN}),
+    (FilterOptions, {"support": "a"}),
+    (Priors, {"sight": 0.0}),
+    (Priors, {"sight": -1.0}),
+    (Priors, {"transition": None}),
+    (Priors, {"position": INF}),
+    (Priors, {"door_floor": 0.7}),
+]
+
+
+@pytest.mark.parametrize(("kind", "wrong"), RECORDS, ids=str)
+def test_records_that_cannot_work_are_refused_when_they_are_made(kind: type[Any], wrong: dict[str, Any]) -> None:
+    with pytest.raises(CogmapError, match=r"^settings: (rates|filter|priors)\.\w+ is .*; use") as raised:
+        kind(**wrong)
+    assert "\n" not in str(raised.value)
 
 
 def test_unknown_names_are_refused() -> None:
@@ -130,6 +150,12 @@ def test_settings_never_change() -> None:
     assert settings == Settings()
     with pytest.raises(TypeError):
         Settings(6)  # type: ignore[misc]
+
+
+def test_settings_of_an_agent_cannot_be_set() -> None:
+    agent = Agent(GRID)
+    with pytest.raises(AttributeError):
+        agent.settings = Settings(window=3)  # type: ignore[misc]
 
 
 def test_the_paper_is_the_default() -> None:

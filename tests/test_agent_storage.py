@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.model import CogmapError
+from cogmap.model import CogmapError, decode
 from cogmap.worlds import MazeEnv, load_world
 from walks import GRID, assert_agent_is_sound, assert_same_belief, assert_same_map, walk, walked
 
@@ -30,20 +30,23 @@ def relabelled(name: str) -> Callable[[dict[str, Any]], dict[str, Any]]:
     return lambda observation: {**observation, "sight": LABELS[name](int(observation["sight"]))}
 
 
-def assert_walks_on_alike(world: MazeEnv, one: Agent, other: Agent, observe: Any, steps: int) -> None:
+def assert_walks_on_alike(
+    world: MazeEnv, one: Agent, other: Agent, observe: Any, steps: int, *, taken: int = 0
+) -> None:
     """Both get the same observations, silent moves included, and must do, believe and learn the same."""
     rng = np.random.default_rng(9)
     observation = world.observe()
     for k in range(steps):
         if k % 5 == 2:
             observation = world.displace(world.maze.rooms[int(rng.integers(len(world.maze.rooms)))])
-        actions = [agent.step(observe(observation)) for agent in (one, other)]
+        actions = [agent.step({**observe(observation), "taken": taken}) for agent in (one, other)]
         assert actions[0] == actions[1]
         assert one.trace[-1] == other.trace[-1]
         assert_same_belief(one, other)
         assert_same_map(one.map, other.map)
         np.testing.assert_array_equal(one.plan.probability, other.plan.probability)
-        observation, *_ = world.step(actions[0])
+        taken = actions[0]
+        observation, *_ = world.step(taken)
 
 
 CASES = [
@@ -63,14 +66,14 @@ def test_a_loaded_agent_walks_on_exactly(name: str, options: dict[str, Any], lab
     agent.prefer({observe({"sight": 3})["sight"]: 0.5, "never met": 0.1})
     saved, uncertain, file = 0, 0, tmp_path / "map.npz"
     steer = options.get("growth") is not None
-    for k, _ in enumerate(walk(world, agent, 30, seed=3, displace_every=4, steer=steer, observe=observe)):
+    for k, action in enumerate(walk(world, agent, 30, seed=3, displace_every=4, steer=steer, observe=observe)):
         unsure = not agent.certain
         if k not in (0, 7, 20) and not (unsure and uncertain < 2):
             continue
         uncertain, saved = uncertain + unsure, saved + 1
         agent.save(file)
         here, original = copy.deepcopy(world), copy.deepcopy(agent)
-        here.step(original._action)
+        here.step(action)
         loaded = Agent.load(file)
         assert loaded.settings == agent.settings
         assert (loaded.steps, loaded.certain) == (agent.steps, agent.certain)
@@ -78,7 +81,7 @@ def test_a_loaded_agent_walks_on_exactly(name: str, options: dict[str, Any], lab
         assert_same_map(agent.map, loaded.map)
         assert_same_belief(agent, loaded)
         assert repr(loaded.graph) == repr(agent.graph)
-        assert_walks_on_alike(here, original, loaded, observe, 8)
+        assert_walks_on_alike(here, original, loaded, observe, 8, taken=action)
     assert saved >= 3
     if "certainty" in options:
         assert uncertain, "the walk was meant to be uncertain at times"
@@ -173,7 +176,7 @@ NOT_SAVED: dict[str, tuple[bytes, str]] = {
     "no schema": (headed({"format": "cogmap agent"}), "no header"),
     "a schema of words": (headed({"format": "cogmap agent", "schema": "new"}), "no header"),
     "an infinite schema": (headed('{"format": "cogmap agent", "schema": 1e999}'), "no header"),
-    "a newer schema": (headed({"format": "cogmap agent", "schema": 3}), "schema 3, newer than 2; update cogmap"),
+    "a newer schema": (headed({"format": "cogmap agent", "schema": 4}), "schema 4, newer than 3; update cogmap"),
     "an older schema": (headed({"format": "cogmap agent", "schema": 1}), "schema 1, older than 2; explore"),
     "another format": (headed({"format": "other\nthing", "schema": 2}), "is a 'other.*thing', no saved agent"),
     "a header alone": (headed({"format": "cogmap agent", "schema": 2}), "is damaged"),
@@ -239,10 +242,11 @@ ARRAY_DAMAGE: dict[str, Callable[[np.ndarray], np.ndarray | None]] = {
     "below": lambda array: np.full_like(array, -7) if array.dtype.kind != "b" else array[:0],
 }
 WINDOW_DAMAGE = ("gone", "half", "deeper", "a number")  # its shapes are checked, not its numbers
-HARMLESS = {  # what no further step reads, or what is a log only
-    "half": {"growth"},
-    "below": {"belief.3", "belief.4", "belief.5", "belief.6"},
-    "NaN": {"belief.5"},
+PAIRWISE = {f"state.belief.pairwise.{i}" for i in range(3)}
+HARMLESS = {  # what no further step reads, or what could have been so
+    "half": {"visits.order", "changes.marks"},
+    "below": {"state.belief.log_likelihood", *PAIRWISE},
+    "NaN": {"state.belief.pairwise.2"},
 }
 
 
@@ -252,9 +256,9 @@ def test_damaged_arrays_are_refused(damage: str, saved: Path, tmp_path: Path) ->
         arrays = {name: file[name] for name in file.files}
     path = tmp_path / "damaged.npz"
     for name, array in arrays.items():
-        if name == "header" or (name.startswith("window.") and damage not in WINDOW_DAMAGE):
+        if name == "header" or (name.startswith("state.window.") and damage not in WINDOW_DAMAGE):
             continue
-        if name.startswith("window.0.") and damage != "gone":  # the oldest slice gives its joint only
+        if name.startswith("state.window.0.tables") and damage != "gone":  # the oldest slice gives its joint only
             continue
         damaged = ARRAY_DAMAGE[damage](array)
         rest = {other: values for other, values in arrays.items() if other != name}
@@ -269,8 +273,8 @@ def test_belief_and_window_must_be_about_the_map(saved: Path, tmp_path: Path) ->
     with np.load(saved) as file:
         arrays = {name: file[name] for name in file.files}
     path = tmp_path / "damaged.npz"
-    last = max(int(name.split(".")[1]) for name in arrays if name.startswith("window."))
-    for name in ("belief.0", "belief.1", f"window.{last}.places"):
+    last = max(int(name.split(".")[2]) for name in arrays if name.startswith("state.window."))
+    for name in ("state.belief.message.places", "state.belief.message.positions", f"state.window.{last}.places"):
         path.write_bytes(packed({**arrays, name: arrays[name] + 1000}))
         assert_refused(path, "is damaged")
 
@@ -365,3 +369,24 @@ def test_a_failure_in_the_middle_leaves_the_old_file(
     assert loaded.steps == 8
     loaded.step(world.observe())
     assert_agent_is_sound(loaded)
+
+
+# -- files of before -------------------------------------------------------------------------------------------
+
+OF_BEFORE = Path(__file__).parent / "saved"
+
+
+@pytest.mark.parametrize("name", ["predicted", "static", "observed"])
+def test_an_agent_saved_by_an_earlier_version_walks_on(name: str) -> None:
+    agent = Agent.load(OF_BEFORE / f"schema2_{name}.npz")
+    steps = json.loads((OF_BEFORE / f"schema2_{name}.json").read_text())
+    for sight, open_, action, evidence, moved, places, G, retracted, learned in steps:
+        assert agent.step({"sight": decode(sight), "open": open_}) == action
+        record = agent.trace[-1]
+        assert record.evidence == pytest.approx(evidence, abs=1e-9)
+        assert record.moved == pytest.approx(moved, abs=1e-9)
+        assert record.places == pytest.approx(dict(places), abs=1e-9)
+        assert record.G["G"] == pytest.approx(G, abs=1e-9)
+        assert record.retracted == retracted
+        assert sum(update.amount for update in record.learned) == pytest.approx(learned, abs=1e-9)
+    assert_agent_is_sound(agent)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent
 from cogmap.experiments import Truth
+from cogmap.model import FactorGraph, save_graph
 from cogmap.worlds import GRID, MazeEnv, labyrinth
 
 BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
@@ -133,8 +134,7 @@ def test_a_known_agent_is_like_one_that_walked(seed: int, monkeypatch: pytest.Mo
     for (_, room), (action, _) in zip(walk, [*walk[1:], (4, start)], strict=True):
         assert world.position == room
         walked.step(observation)
-        walked._action = action
-        observation, *_ = world.step(action)
+        observation = {**world.step(action)[0], "taken": action}
     for agent in (taught, walked):
         assert truth.visited(agent.map)
         assert truth.learned(agent.map)
@@ -207,3 +207,30 @@ def test_a_result_that_cannot_be_written_is_refused_before_anything_is_measured(
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
     assert done.returncode == 2
     assert "cannot be written; name a file in a folder that is there" in done.stderr
+
+
+def test_networks(tmp_path: Path) -> None:
+    graph = FactorGraph()
+    graph.variable("rain", ("no", "yes"))
+    graph.variable("wet", ("no", "yes"))
+    graph.factor("P", ["rain"], [0.8, 0.2])
+    graph.factor("P", ["wet", "rain"], [[0.9, 0.2], [0.1, 0.8]])
+    folder = tmp_path / "networks"
+    folder.mkdir()
+    save_graph(graph, folder / "rain.bif")
+    save_graph(graph, folder / "rain.uai")
+    (folder / "rain.uai.evid").write_text("1 1 1")
+    (folder / "rain.uai.MAR").write_text("MAR 2 2 0.333333 0.666667 2 0 1")
+    printed, result = measured("networks.py", tmp_path, str(folder), "--runs", "2", "--no-peer")
+    one, other = result["rows"]
+    assert (one["variables"], other["variables"]) == (2, 2)
+    assert one["solution"] is None
+    assert other["solution"] < 1e-6
+    assert all(one["milliseconds"][question]["cogmap"] > 0 for question in ("all", "one", "again"))
+    assert printed.count("rain ") == 2
+    printed, result = measured("inference.py", tmp_path, "--windows", "1", "--supports", "2", "--runs", "1")
+    assert result["rows"][0]["difference"] < 1e-9
+    file = tmp_path / "out.json"
+    given = ["--networks", str(folder), "--runs", "1", "--memory", "10", "--no-peer", "--json", str(file)]
+    subprocess.run([sys.executable, str(BENCHMARKS / "inference.py"), *given], check=True, capture_output=True)
+    assert "needs" in json.loads(file.read_text())["rows"][0]["refused"]

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import inspect
 import json
 import os
 import signal
@@ -11,10 +10,9 @@ from pathlib import Path
 
 import pytest
 from cogmap.agent import Agent, Settings
+from cogmap.experiments import Parts
 from cogmap.experiments.cli import app
-from cogmap.experiments.cli_explore import explore_command
-from cogmap.experiments.cli_spark import sparkline
-from cogmap.worlds import format_maze, hall
+from cogmap.worlds import MAZES, format_maze, hall
 from command_line import cogmap, heeding_ctrl_c
 from typer.testing import CliRunner
 
@@ -184,14 +182,43 @@ def test_a_terminal_without_unicode() -> None:
     assert run.stdout.isascii()
 
 
-def test_the_defaults_are_those_of_the_settings() -> None:
-    signature = inspect.signature(explore_command)
-    for name in ("look_ahead", "policies", "growth", "engine"):
-        assert signature.parameters[name].default == getattr(Settings(), name)
+def test_the_defaults_are_those_of_the_library() -> None:
+    assert cogmap("explore", "3x3", "--runs", 1, "--json", "d.json").exit_code == 0
+    saved = json.loads(Path("d.json").read_text())
+    assert saved["settings"] == json.loads(json.dumps(Parts().to_dict(MAZES["3x3"])))
 
 
-def test_sparkline() -> None:
-    assert sparkline([0.0, 1.0, 2.0, 7.0]) == "▁▂▃█"
-    assert sparkline([3.0, 3.0]) == "▅▅"
-    assert len(sparkline(list(range(1000)), width=20)) == 20
-    assert sparkline([0.0, 1.0], unicode=False).isascii()
+def test_energies_are_drawn_as_lines_of_signs() -> None:
+    lines = cogmap("explore", "3x3").stdout.splitlines()
+    drawn = [set(line) & set("▁▂▃▄▅▆▇█") for line in lines if line.startswith(("free energy F", "expected free"))]
+    assert len(drawn) == 2
+    assert all({"▁", "█"} <= signs for signs in drawn)
+
+
+def test_what_is_there_and_was_not_named_is_not_overwritten() -> None:
+    for picture in ("3x3.png", "3x3-2.png", "3x3-3.png"):
+        assert f"picture saved: {picture}" in cogmap("explore", "3x3", "--agent", "frontier").stdout
+    Path("3x3.png").write_text("mine")
+    assert cogmap("explore", "3x3", "--agent", "frontier").exit_code == 0
+    assert Path("3x3.png").read_text() == "mine"
+    assert cogmap("explore", "3x3", "--agent", "frontier", "--out", "3x3.png").exit_code == 0
+    assert Path("3x3.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["explore", "house.txt", "--json", "house.txt"],
+        ["explore", "house.txt", "--save", "./house.txt"],
+        ["explore", "house.txt", "--trace", "link.txt"],
+        ["kidnap", "house.txt", "--json", "house.txt"],
+        ["navigate", "house.txt", "--goal", "hall", "--json", "house.txt"],
+    ],
+)
+def test_the_maze_that_is_read_is_not_written(command: list[str]) -> None:
+    Path("house.txt").write_text("hall attic\n")
+    Path("link.txt").symlink_to("house.txt")
+    refused = cogmap(*command)
+    assert refused.exit_code == 2
+    assert "is the file that is read; write to another" in refused.stderr
+    assert Path("house.txt").read_text() == "hall attic\n"

@@ -1,15 +1,13 @@
 from __future__ import annotations
 
-import inspect
 import json
 import os
 from pathlib import Path
 
 import pytest
-from cogmap.agent import Agent, Settings
-from cogmap.experiments.cli_kidnap import kidnap_command
-from cogmap.experiments.cli_navigate import navigate_command
-from cogmap.experiments.navigating import WEIGHT
+from cogmap.agent import Agent
+from cogmap.experiments import WEIGHT, Parts
+from cogmap.worlds import MAZES
 from command_line import cogmap
 
 pytestmark = pytest.mark.usefixtures("empty_folder")
@@ -113,11 +111,12 @@ def test_bad_input_is_one_line_and_exit_code_2(
     assert os.listdir() == ["one.txt"]
 
 
-def test_the_defaults_are_those_of_the_settings() -> None:
-    for command in (kidnap_command, navigate_command):
-        for name in ("look_ahead", "policies"):
-            assert inspect.signature(command).parameters[name].default == getattr(Settings(), name)
-    assert inspect.signature(navigate_command).parameters["weight"].default == WEIGHT
+def test_the_defaults_are_those_of_the_library() -> None:
+    for command in (("kidnap", "3x3"), ("navigate", "3x3", "--goal", 8)):
+        cogmap(*command, "--runs", 1, "--json", "d.json")
+        saved = json.loads(Path("d.json").read_text())
+        assert saved["settings"] == json.loads(json.dumps(Parts().to_dict(MAZES["3x3"])))
+        assert saved.get("weight", WEIGHT) == WEIGHT
 
 
 def test_a_room_can_be_closed_before_it_sets_out(tmp_path: Path) -> None:

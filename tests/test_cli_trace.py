@@ -17,13 +17,15 @@ def test_an_exploration_is_recorded_from_the_first_room_to_the_last() -> None:
     run = explore(MAZES["3x3_alias"], seed=4)
     assert run.steps_to_complete is not None
     assert len(recording) == run.steps_to_complete + 1
-    assert tuple(recording.frames[0]["at"]) == run.start
-    assert {tuple(frame["at"]) for frame in recording.frames} == set(MAZES["3x3_alias"].rooms)
+    walked = [recording.places[frame["at"]] for frame in recording.frames]
+    assert walked[0] == run.start
+    assert set(walked) == set(MAZES["3x3_alias"].rooms)
 
 
 def test_of_a_sweep_the_first_walk_is_recorded() -> None:
     cogmap("explore", "3x3", "--runs", "2", "--seed", "7", "--trace", "walk.json.gz")
-    assert tuple(Recording.load("walk.json.gz").frames[0]["at"]) == explore(MAZES["3x3"], seed=7, max_steps=1).start
+    recording = Recording.load("walk.json.gz")
+    assert recording.places[recording.frames[0]["at"]] == explore(MAZES["3x3"], seed=7, max_steps=1).start
 
 
 def test_a_way_to_a_goal_is_recorded_with_the_exploring_before() -> None:
@@ -33,7 +35,7 @@ def test_a_way_to_a_goal_is_recorded_with_the_exploring_before() -> None:
     assert run.steps_to_explore is not None
     recording = Recording.load("walk.json")
     assert len(recording) == run.steps_to_explore + run.steps + 2
-    assert [frame.get("closed_rooms") for frame in recording.frames][-1] == [[0, 2]]
+    assert [frame.get("closed_rooms") for frame in recording.frames][-1] == [recording.places.index((0, 2))]
     assert recording.frames[0].get("closed_rooms") is None
 
 

@@ -8,8 +8,7 @@ from pathlib import Path
 from time import sleep
 
 import pytest
-from cogmap.experiments import cli_progress
-from cogmap.experiments.cli import app
+from cogmap.experiments.cli import app, progress
 from cogmap.worlds import MAZES
 from typer.testing import CliRunner
 
@@ -54,12 +53,12 @@ def test_help_does_not_wait_for_the_agent() -> None:
 
 
 def test_the_bar_comes_late_and_goes(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(cli_progress, "PATIENCE", 0.05)
+    monkeypatch.setattr(progress, "PATIENCE", 0.05)
     monkeypatch.setenv("FORCE_COLOR", "1")
-    with cli_progress.progress("walking", 3) as report:
+    with progress.progress("walking", 3) as report:
         report(1)
     assert "walking" not in capsys.readouterr().err
-    with cli_progress.progress("walking", 3) as report:
+    with progress.progress("walking", 3) as report:
         report(2)
         sleep(0.4)
     captured = capsys.readouterr()

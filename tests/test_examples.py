@@ -14,7 +14,7 @@ SCRIPTS = sorted(FOLDER.glob("*.py"))
 SAYS = {
     "inspect_factor_graph": ("M(moved20)", "{0: 0.5, 1: 0.5}", "less log evidence"),
     "kidnap_and_recover": ("P(moved) 1.000", "not certain", "still 16 places"),
-    "own_factor_graph": ("log evidence", "P(today | the day before)", "fever"),
+    "own_factor_graph": ("evidence lower bound", "P(today | the day before)", "fever"),
     "own_maze": ("half way", "15 visited", "15 steps; the shortest walk through all rooms has 15"),
     "quickstart": ("16 visited", "sight_information", "free energy"),
     "watch_it_grow": ("seen up of place 0", "'place': 9"),
@@ -47,7 +47,7 @@ def test_it_runs_says_what_it_should_and_draws(script: Path, tmp_path: Path) -> 
 
 def test_what_is_learned_of_the_patient_explains_the_reports_better(tmp_path: Path) -> None:
     printed = run(FOLDER / "own_factor_graph.py", tmp_path).stdout
-    evidence = [float(value) for value in re.findall(r"log evidence (-[\d.]+)", printed)]
+    evidence = [float(value) for value in re.findall(r"evidence lower bound (-[\d.]+)", printed)]
     assert len(evidence) == 6
     assert evidence == sorted(evidence)
     ill = [line.split()[0] for line in printed.splitlines() if line.endswith(" ill")]

@@ -2,8 +2,10 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
-import cogmap.experiments.oracle as oracle
+import numpy as np
 import pytest
 from cogmap.agent import Settings
 from cogmap.experiments import (
@@ -16,10 +18,10 @@ from cogmap.experiments import (
     oracle_steps,
     summarise,
     walk,
+    workers,
 )
-from cogmap.experiments.executors import workers
 from cogmap.model import CogmapError
-from cogmap.worlds import MAZES, hall, parse_maze
+from cogmap.worlds import MAZES, parse_maze, random_maze
 
 ONE = parse_maze("5", name="one")
 
@@ -103,12 +105,27 @@ def test_a_random_walk_ends_with_the_last_visit_since_it_senses_the_doors() -> N
     assert done.run.steps_to_visit_all == done.run.steps_to_learn == len(done.path) - 1
 
 
-def test_without_transitions_nothing_is_learned(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delattr("cogmap.baselines.explorer.Explorer.edges")
-    done = walk(MAZES["3x3"], agent="random", seed=0, max_steps=60)
+class Wanderers:
+    """Makes agents that move at random and know no transition."""
+
+    agent = "wanderer"
+
+    def make(self, world: Any, seed: np.random.SeedSequence) -> Any:
+        rng = np.random.default_rng(seed)
+        return SimpleNamespace(step=lambda _: int(rng.integers(len(world.motions.names))), prefer=lambda _: None)
+
+    def to_dict(self, chart: Any) -> dict[str, Any]:
+        return {"rooms": len(chart.places)}
+
+
+def test_agents_of_ones_own_explore_and_without_transitions_nothing_is_learned() -> None:
+    done = walk(MAZES["3x3"], agent=Wanderers(), seed=0, max_steps=200)
     assert not done.finished
-    assert done.run.steps_to_visit_all == 19
+    assert done.run.steps_to_visit_all is not None
     assert done.run.steps_to_learn is None
+    assert set(done.path) == set(MAZES["3x3"].rooms)
+    result = exploration(MAZES["3x3"], [done.run], agent=Wanderers(), max_steps=200)
+    assert (result["agent"], result["settings"]) == ("wanderer", {"rooms": 9})
 
 
 def test_static_growth_is_given_the_number_of_rooms() -> None:
@@ -152,12 +169,13 @@ def test_the_summary_by_hand() -> None:
     assert nobody["ratio"] is nobody["mean_steps_to_complete"] is nobody["std_steps_to_complete"] is None
 
 
-def test_out_of_the_oracles_reach_frontier_search_stands_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(oracle, "EFFORT", 1)
-    maze = hall(4, 5, sights=None)
+def test_out_of_the_oracles_reach_frontier_search_stands_in() -> None:
+    maze = random_maze(90, sights=None, rng=np.random.default_rng(0))
     run = explore(maze, agent="frontier", seed=0)
     assert run.oracle_steps is None
-    assert run.frontier_steps == frontier_steps(maze, run.start) >= 19
+    frontier = frontier_steps(maze, run.start)
+    assert frontier is not None
+    assert run.frontier_steps == frontier >= 89
     assert run.to_dict()["frontier_steps"] == run.frontier_steps
     summary = summarise([run], max_steps=1)
     assert summary["ratio"] is summary["mean_oracle_steps"] is None
@@ -175,6 +193,7 @@ def test_the_oracle_of_a_grid() -> None:
         ({"agent": "genius"}, "no agent is called 'genius'"),
         ({"max_steps": 0}, "max_steps is 0"),
         ({"seed": -1}, "seed is -1"),
+        ({"agent": Wanderers(), "settings": Settings()}, "agent wanderer has settings of its own"),
     ],
 )
 def test_bad_walks_are_refused(options: dict[str, object], message: str) -> None:

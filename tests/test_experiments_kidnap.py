@@ -4,16 +4,22 @@ import json
 from types import SimpleNamespace
 from typing import Any
 
-import cogmap.experiments.kidnapping as module
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.experiments import KidnapRun, explore, kidnap, kidnap_many, kidnap_result, map_seeds
-from cogmap.experiments.executors import workers
-from cogmap.experiments.session import explored
-from cogmap.model import CogmapError
+from cogmap.experiments import (
+    KidnapRun,
+    explore,
+    explored,
+    kidnap,
+    kidnap_many,
+    kidnap_result,
+    map_seeds,
+    workers,
+)
+from cogmap.model import ELSEWHERE, CogmapError
 from cogmap.worlds import MAZES, parse_maze
 
-SMALL = MAZES["3x3"]
+SMALL, TWO = MAZES["3x3"], parse_maze("0 1", name="two")
 
 
 @pytest.mark.parametrize("name", ["3x3", "t_maze_alias"])
@@ -38,16 +44,15 @@ def test_exploring_is_that_of_explore() -> None:
 
 
 def test_it_is_moved_to_another_room() -> None:
-    two = parse_maze("0 1", name="two")
     for seed in range(6):
-        session = explored("kidnap", two, settings=None, seed=seed, most=50)
+        session = explored("kidnap", TWO, seed)
         here = session.world.position
         assert session.steps is not None
         assert session.displace(elsewhere=True) == session.world.position != here
 
 
 def test_the_true_place_follows_the_world() -> None:
-    session = explored("kidnap", SMALL, settings=None, seed=1, most=100)
+    session = explored("kidnap", SMALL, 1)
     places = set[int | None]()
     for room in SMALL.rooms:
         session.world.displace(room)
@@ -68,59 +73,80 @@ def test_not_explored_is_counted_and_not_moved() -> None:
     assert result["runs"][0]["recovered"] is False
 
 
-class Lost:
-    """A session that is certain of place `beliefs[step]`, and truly in place 1."""
+class Lost(Agent):
+    """In a maze of two rooms it says where it is as it is told to, once it was moved: after two observations."""
 
-    def __init__(self, beliefs: list[int], certain: list[bool]) -> None:
-        self.beliefs, self.certainties, self.seen = beliefs, certain, 0
-        self.agent: Any = self
-        self.world = SimpleNamespace(observe=lambda: {}, step=lambda _: None)
-        self.true_place = 1
+    def __init__(self, world: Any, script: list[tuple[bool, bool]], harm: str) -> None:
+        super().__init__(world.motions, seed=0)
+        self.world, self.script, self.harm = world, script, harm
+        self.start: Any = None
+        self.said: Any = None
 
-    def step(self, _: object) -> int:
-        self.seen += 1
-        return 0
+    def step(self, observation: Any) -> int:
+        self.said = None
+        self.start = self.world.place if self.start is None else self.start
+        action = super().step(observation)
+        if self.steps > 2:
+            right, certain = self.script[min(self.steps - 3, len(self.script) - 1)]
+            here = self.map.place_at((0, self.world.place[1] - self.start[1]))
+            self.said = SimpleNamespace(place=here if right else 1 - (here or 0), certain=certain)
+            if self.harm == "transition":
+                self.map.B_s.add(self.map.row(0, 0), ELSEWHERE, 100.0)
+            if self.harm == "place":
+                self.map.new_place((50, 50), step=99)
+            self.harm = ""
+        return action
 
     @property
     def belief(self) -> Any:
-        return SimpleNamespace(place=self.beliefs[min(self.seen, len(self.beliefs)) - 1])
+        return self.said or super().belief
 
     @property
     def certain(self) -> bool:
-        return self.certainties[min(self.seen, len(self.certainties)) - 1]
+        return self.said.certain if self.said else super().certain
+
+
+class Losing:
+    """Makes such agents; each entry of the script says whether it is right, and whether it is certain."""
+
+    agent = "lost"
+
+    def __init__(self, script: list[tuple[bool, bool]], harm: str = "") -> None:
+        self.script, self.harm = script, harm
+
+    def make(self, world: Any, seed: object) -> Lost:
+        self.made = Lost(world, self.script, self.harm)
+        return self.made
+
+    def to_dict(self, chart: object) -> dict[str, Any]:
+        return {}
 
 
 @pytest.mark.parametrize(
-    ("beliefs", "certain", "expected", "observations"),
+    ("right", "certain", "expected", "observations"),
     [
-        ([1], [True], (0, 0), 21),
-        ([2, 2, 1, 1], [True, False, False, True], (3, 1), 24),
-        ([1, 2, 1], [True, True, True], (0, 1), 21),
-        ([2], [True], (None, 9), 9),
-        ([1], [False], (None, 0), 9),
-        ([2] * 8 + [1], [False] * 8 + [True], (8, 0), 29),
+        ("y", "y", (0, 0), 21),
+        ("nnyy", "ynny", (3, 1), 24),
+        ("yny", "yyy", (0, 1), 21),
+        ("n", "y", (None, 9), 9),
+        ("y", "n", (None, 0), 9),
+        ("nnnnnnnny", "nnnnnnnny", (8, 0), 29),
     ],
 )
 def test_recovery_is_being_certain_and_right(
-    beliefs: list[int], certain: list[bool], expected: tuple[int | None, int], observations: int
+    right: str, certain: str, expected: tuple[int | None, int], observations: int
 ) -> None:
-    lost: Any = Lost(beliefs, certain)
-    assert module._recover(lost, 8) == expected
-    assert lost.seen == observations
+    losing = Losing([(a == "y", b == "y") for a, b in zip(right, certain, strict=True)])
+    run = kidnap(TWO, agent=losing, max_steps=8)
+    assert run.steps_to_explore == 1
+    assert (run.steps_to_recover, run.steps_certain_but_wrong) == expected
+    assert run.recovered is (expected[0] is not None)
+    assert losing.made.steps == 2 + observations
 
 
-@pytest.mark.parametrize("harm", ["transition", "place"])
-def test_a_harmed_map_is_seen(monkeypatch: pytest.MonkeyPatch, harm: str) -> None:
-    def hurt(session: Any, most: int) -> tuple[int, int]:
-        known = session.agent.map
-        if harm == "transition":
-            known.B_s.fade(slice(None), 0.0)
-        else:
-            known.new_place((50, 50), step=99)
-        return 0, 0
-
-    monkeypatch.setattr(module, "_recover", hurt)
-    assert kidnap(SMALL).map_intact is False
+@pytest.mark.parametrize(("harm", "intact"), [("transition", False), ("place", False), ("", True)])
+def test_a_harmed_map_is_seen(harm: str, intact: bool) -> None:
+    assert kidnap(TWO, agent=Losing([(True, True)], harm)).map_intact is intact
 
 
 def test_the_result_is_plain_json_and_the_same_on_two_processes() -> None:
@@ -142,6 +168,7 @@ def test_bad_input(monkeypatch: pytest.MonkeyPatch) -> None:
         (lambda: kidnap(parse_maze("0", name="one")), "has one room"),
         (lambda: kidnap(SMALL, seed=-1), "kidnap: seed is -1"),
         (lambda: kidnap(SMALL, max_steps=0), "kidnap: max_steps is 0"),
+        (lambda: kidnap(SMALL, agent="frontier"), "kidnap: agent frontier believes nothing"),
         (lambda: kidnap_many(SMALL, runs=0), "runs is 0"),
         (lambda: map_seeds(abs, runs=0), "runs is 0"),
     ):

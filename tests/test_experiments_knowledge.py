@@ -3,9 +3,19 @@ from __future__ import annotations
 import pytest
 from cogmap.agent import Agent
 from cogmap.experiments import BELIEVED, Truth, explore
-from cogmap.worlds import GRID, MAZES, Maze, MazeEnv, parse_maze
+from cogmap.worlds import GRID, MAZES, Maze, MazeEnv, Motions, parse_maze
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
+
+class Ring:
+    """The chart of three places in a ring."""
+
+    name, places, sights, positions = "ring", (0, 1, 2), {0: "a", 1: "b", 2: "c"}, None
+    motions = Motions(("on", "back", "stay"), ((1,), (-1,), (0,)))
+
+    def successors(self, place: int) -> dict[str, int]:
+        return {"on": (place + 1) % 3, "back": (place - 1) % 3, "stay": place}
 
 
 def least_by_hand(maze: Maze, start: tuple[int, int], agent: Agent) -> float:
@@ -77,6 +87,15 @@ def test_edges_must_hold_every_transition() -> None:
     assert not truth.known({**edges, (right, 2): right})
     del edges[right, 4]
     assert not truth.known(edges)
+
+
+def test_a_world_that_is_no_lattice_is_never_known() -> None:
+    truth = Truth(Ring(), 0)
+    agent = Agent({"on": (1,), "back": (-1,), "stay": (0,)}, seed=0)
+    assert not truth.learned(agent.map)
+    assert not truth.visited(agent.map)
+    assert not truth.known({})
+    assert truth.place(agent.map, 0) is None
 
 
 def test_a_frontier_run_learns_what_it_visits() -> None:

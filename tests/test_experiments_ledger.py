@@ -6,9 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from cogmap.experiments import ledger as module
-from cogmap.experiments import ledger_file
-from cogmap.experiments.ledger import Ledger
+from cogmap.experiments import Ledger
 from cogmap.model import CogmapError
 
 SETTINGS: dict[str, Any] = {"settings": {"look_ahead": 6, "priors": {"sight": 0.1}}, "max_steps": None}
@@ -125,34 +123,30 @@ def test_a_row_that_cannot_be_used_is_refused_with_its_line(path: Path) -> None:
         ledger.begin(read, **SETTINGS)
 
 
-def test_what_cannot_be_written_is_refused_before_anything_runs(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for bad, message in ((tmp_path, "it is a folder or a device"), (Path("/dev/null"), "it is a folder or a device")):
-        with pytest.raises(CogmapError, match=message):
+def test_what_cannot_be_written_is_refused_before_anything_runs(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for bad in (tmp_path, Path("/dev/null"), tmp_path / "pipe"):
+        with pytest.raises(CogmapError, match="it is a folder or a device"):
             Ledger(bad)
     with pytest.raises(CogmapError, match=r"cannot write .*No such file or directory\); choose another file"):
         Ledger(tmp_path / "no" / "cells.jsonl")
 
-    def denied(*_: object) -> int:
-        raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(ledger_file.os, "open", denied)
-    with pytest.raises(CogmapError, match=r"cannot write .*\(Permission denied\); choose another file"):
-        Ledger(tmp_path / "cells.jsonl")
-
-
-def test_a_full_disk_is_one_line_and_harms_no_row(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    write = os.write
+def test_a_full_disk_is_one_line_and_harms_no_row(path: Path) -> None:
+    resource = pytest.importorskip("resource")
     with Ledger(path) as ledger:
         ledger.begin(dict, **SETTINGS)
         ledger.append({"row": 0})
         before = path.read_bytes()
-        with monkeypatch.context() as patch:
-            patch.setattr(module.os, "write", lambda file, line: write(file, line[:5]))
-            with pytest.raises(CogmapError, match=r"cannot write .*the disk is full"):
-                ledger.append({"row": 1})
-        assert path.read_bytes() == before
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        for room in (0, 5):
+            resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + room, limits[1]))
+            try:
+                with pytest.raises(CogmapError, match=r"cannot write .*rows are kept, make room and go on"):
+                    ledger.append({"row": 1})
+            finally:
+                resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+            assert path.read_bytes() == before
         ledger.append({"row": 1})
     assert begun(path) == [{"row": 0}, {"row": 1}]
 

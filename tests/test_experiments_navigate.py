@@ -1,16 +1,16 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 from typing import Any
 
-import cogmap.experiments.navigating as module
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.baselines import FrontierAgent
-from cogmap.experiments import NavigateRun, explore, navigate, navigate_many, navigate_result, parse_goal
-from cogmap.experiments.executors import workers
+from cogmap.experiments import NavigateRun, explore, navigate, navigate_many, navigate_result, parse_goal, workers
+from cogmap.experiments import run as live
 from cogmap.model import CogmapError
-from cogmap.worlds import GRID, MAZES, MazeEnv, hall, parse_maze
+from cogmap.worlds import GRID, MAZES, hall, load_world, parse_maze, shortest_path
 
 SMALL, ALIAS = MAZES["3x3"], MAZES["t_maze_alias"]
 WORDS = parse_maze("a b 3", name="words")
@@ -42,54 +42,58 @@ def test_exploring_first_is_that_of_explore() -> None:
     assert (run.explored_from, run.steps_to_explore) == (plain.start, plain.steps_to_complete)
 
 
+CORRIDOR = parse_maze("7 0 1 2 7", name="corridor")
+
+
+class Walking:
+    """Makes agents that carry out the given actions; the last one says what was preferred."""
+
+    agent = "walker"
+
+    def __init__(self, *names: str) -> None:
+        self.actions, self.preferred = [GRID.names.index(name) for name in names], dict[Any, float]()
+
+    def make(self, world: Any, seed: object) -> Any:
+        left = list(self.actions)
+        return SimpleNamespace(step=lambda _: left.pop(0), prefer=self.preferred.update)
+
+    def to_dict(self, chart: object) -> dict[str, Any]:
+        return {}
+
+
+def starts_at(column: int) -> int:
+    """A seed with which the corridor is entered there."""
+    return next(s for s in range(99) if explore(CORRIDOR, s, agent="random", max_steps=1).start == (0, column))
+
+
 def test_the_shortest_path_is_to_the_nearest_room_with_the_sight() -> None:
-    maze = parse_maze("7 0 1 2 7", name="corridor")
-    assert [module.shortest(maze, room, 7) for room in maze.rooms] == [0, 1, 2, 1, 0]
+    for column, expected in enumerate([0, 1, 2, 1, 0]):
+        run = navigate(CORRIDOR, starts_at(column), goal=7, known=False, agent="frontier")
+        assert (run.start, run.shortest) == ((0, column), expected)
 
 
 def test_nearest_frontier_search_stands_on_the_goal() -> None:
-    corridor = parse_maze("0 1 2 3", name="corridor")
-    for seed in range(6):
-        start = explore(corridor, seed=seed, max_steps=1).start[1]
-        steps = module.frontier_to(corridor, 3, seed=seed)
-        assert steps in ({3} if start == 0 else {3 - start, start + 3, 3 * start} if start < 3 else {0})
-
-
-class Fixed:
-    """A session whose agent answers with the given actions; world: a corridor 0 1 2, from its left end."""
-
-    def __init__(self, actions: list[str]) -> None:
-        self.world = MazeEnv(parse_maze("0 1 2", name="corridor"))
-        self.world.reset(options={"start": (0, 0)})
-        motions = Agent(self.world.motions).map.motions
-        self.actions = [motions.names.index(name) for name in actions]
-        self.map: Any = type("Map", (), {"motions": motions})
-        self.agent: Any = self
-        self.preferred: Any = None
-
-    def prefer(self, goals: Any) -> None:
-        self.preferred = goals
-
-    def step(self, _: object) -> int:
-        return self.actions.pop(0)
+    steps = [navigate(CORRIDOR, starts_at(column), goal=2, known=False).frontier_steps for column in range(5)]
+    assert (steps[0], steps[3], steps[4]) == (3, 0, 1)
+    assert steps[1] in (2, 4)  # one step the wrong way, or none
+    assert steps[2] in (1, 3, 5)
 
 
 @pytest.mark.parametrize(
-    ("actions", "steps"),
+    ("actions", "steps", "stood"),
     [
-        (["right", "stay"], 1),
-        (["right", "right", "left", "stay"], 3),
-        (["stay", "right", "stay"], 2),
-        (["right", "right", "stay", "stay", "stay"], None),
-        (["right", "up", "left", "right", "left"], None),
+        (["right", "stay"], 1, 1),
+        (["right", "right", "left", "stay"], 3, 1),
+        (["stay", "right", "stay"], 2, 2),
+        (["right", "right", "stay", "stay", "stay"], None, 1),
+        (["right", "up", "left", "right", "left"], None, 1),
     ],
 )
-def test_passing_through_is_not_reaching(actions: list[str], steps: int | None) -> None:
-    actions_before = list(actions)
-    session: Any = Fixed(actions)
-    reached, stood = module._reach(session, 1, 2.5, 4)
-    assert (reached, stood) == (steps, 2 if actions_before[0] == "stay" else 1)
-    assert session.preferred == {1: 2.5}
+def test_passing_through_is_not_reaching(actions: list[str], steps: int | None, stood: int) -> None:
+    walking = Walking(*actions)
+    run = navigate(CORRIDOR, starts_at(0), goal=0, known=False, weight=2.5, agent=walking, max_steps=4)
+    assert (run.reached, run.steps, run.steps_to_stand) == (steps is not None, steps, stood)
+    assert walking.preferred == {0: 2.5}
 
 
 def test_any_agent_can_be_sent() -> None:
@@ -107,16 +111,14 @@ def test_any_agent_can_be_sent() -> None:
 
 
 def test_what_frontier_search_has_seen_it_finds_again_where_it_takes_itself_to_be() -> None:
-    agent, world = FrontierAgent(GRID, seed=0), MazeEnv(SMALL)
-    observation, _ = world.reset(options={"start": (0, 0)})
-    for _ in range(20):
-        observation, *_ = world.step(agent.step(observation))
+    world, stay = load_world("3x3"), GRID.names.index("stay")
+    agent = live(world, FrontierAgent(GRID, seed=0), steps=20, options={"start": (0, 0)}).agent
     agent.prefer({8: 1.0, 3: 0.5})
-    steps, shortest = 0, module.shortest(SMALL, world.position, 8)
-    while (action := agent.step(observation)) != module.STAY:
-        observation, *_ = world.step(action)
-        steps += 1
-    assert (observation["sight"], steps) == (8, shortest)
+    room = world.position
+    begin = world.observe(), {"position": room}
+    done = live(world, agent, steps=20, begin=begin, watch=lambda moment: moment.action == stay)
+    assert len(done.truth) == len(shortest_path(SMALL, room, done.truth[-1]))
+    assert SMALL.sights[done.truth[-1]] == 8
 
 
 def test_failures_are_counted_apart() -> None:

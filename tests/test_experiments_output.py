@@ -5,8 +5,8 @@ import os
 from pathlib import Path
 
 import pytest
-from cogmap.experiments.output import check_outputs, check_picture, write_json, write_whole
-from cogmap.model import CogmapError
+from cogmap.experiments import check_outputs, write_json
+from cogmap.model import CogmapError, write_whole
 
 
 def test_json_is_written_whole(tmp_path: Path) -> None:
@@ -72,8 +72,17 @@ def test_two_outputs_need_two_files(tmp_path: Path) -> None:
         check_outputs([tmp_path / "x", tmp_path / "." / "x"])
 
 
+def test_what_is_read_is_not_written(tmp_path: Path) -> None:
+    (tmp_path / "in.txt").write_text("0 1")
+    (tmp_path / "link.txt").symlink_to("in.txt")
+    for path in ("in.txt", "link.txt"):
+        with pytest.raises(CogmapError, match=r"\.txt is the file that is read; write to another"):
+            check_outputs([tmp_path / path], inputs=[tmp_path / "in.txt"])
+    check_outputs([tmp_path / "3x3"], inputs=["3x3"])
+
+
 @pytest.mark.parametrize("path", ["x", "x.bmp", ".png"])
-def test_pictures_have_a_known_format(path: str) -> None:
-    check_picture(Path("x.PNG"))
+def test_pictures_have_a_known_format(path: str, tmp_path: Path) -> None:
+    check_outputs([], picture=Path("x.PNG"))
     with pytest.raises(CogmapError, match="picture suffix"):
-        check_picture(Path(path))
+        check_outputs([], picture=Path(path))

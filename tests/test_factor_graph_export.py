@@ -6,8 +6,7 @@ import re
 
 import networkx as nx
 import numpy as np
-from cogmap.model.export import equation, quoted
-from cogmap.model.factor_graph import FactorGraph
+from cogmap.model import FactorGraph, equation, quoted
 from hypothesis import given
 from hypothesis import strategies as st
 

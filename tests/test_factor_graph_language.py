@@ -8,11 +8,8 @@ import math
 import numpy as np
 import pytest
 from cogmap.inference import infer
-from cogmap.model.conditional import ConditionalTable, LearnableTable
+from cogmap.model import ConditionalTable, Factor, FactorGraph, LearnableTable, SparseValues, Variable, sparse_values
 from cogmap.model.errors import CogmapError
-from cogmap.model.factor_graph import FactorGraph
-from cogmap.model.factors import Factor, SparseValues, sparse_values
-from cogmap.model.variables import Variable
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -91,6 +88,8 @@ def test_looking_things_up():
         (3, (1,), "non-empty"),
         ("x", (), "empty"),
         ("x", "abc", "string"),
+        ("x", {1, 2}, "a set"),
+        ("x", frozenset({1}), "a set"),
         ("x", (1, 2, 1), "1 stands twice"),
         ("x", (1, True), "twice"),
         ("x", ([1],), "hashable"),

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from cogmap.inference import ImpossibleEvidence, infer, log_product, most_probable
 from cogmap.inference.posterior import expected_log
+from cogmap.model import FactorGraph
 from cogmap.model.errors import CogmapError
-from cogmap.model.factor_graph import FactorGraph
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_inference_graphs import evidences, graphs, ladder
@@ -228,7 +228,7 @@ def test_expected_counts_and_logs():
 
 
 def test_learning_from_expected_counts_recovers_a_coin():
-    from cogmap.model.conditional import ConditionalTable
+    from cogmap.model import ConditionalTable
 
     table = ConditionalTable([1.0, 1.0])
     graph = FactorGraph()

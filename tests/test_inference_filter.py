@@ -8,10 +8,22 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.inference import free_energy, infer, most_probable
-from cogmap.inference.filter import advance, begin
-from cogmap.inference.message import Belief, Evidence, FilterOptions, Message
-from cogmap.model import CognitiveMap, FactorGraph, Learner, Motions, Rates
+from cogmap.inference import Belief, ImpossibleEvidence, Message, advance, begin, free_energy, infer, most_probable
+from cogmap.model import (
+    CogmapError,
+    CognitiveMap,
+    FactorGraph,
+    Lattice,
+    Motions,
+    NoPose,
+    Percept,
+    Sensor,
+    Sight,
+    Slice,
+    Ways,
+    take_slice,
+    window_graph,
+)
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -30,50 +42,83 @@ WALKS = [
 
 # -- one step against brute force ------------------------------------------------------------------------------
 
+SIGHTS = ("sight", "smell", "sound")
 
-def random_map(rng: np.random.Generator) -> CognitiveMap:
-    """Four to seven places on a small grid with random counts everywhere, some without a visit."""
-    map_ = CognitiveMap(Motions.of(GRID))
+
+def random_map(
+    rng: np.random.Generator,
+    *,
+    sights: int = 1,
+    ways: bool = True,
+    pose: bool = True,
+    displacement: float | None = 1e-4,
+    slip: float = 1e-4,
+) -> CognitiveMap:
+    """Four to seven places with random counts everywhere, some without a visit, of any list of factors."""
+    noise = [None, 0.1, 2.0]
+    sensors: list[Sensor] = [Sight(name, prior=noise[at]) for at, name in enumerate(SIGHTS[:sights])]
+    map_ = CognitiveMap(
+        Motions.of(GRID),
+        sensors=[*sensors, *([Ways()] if ways else [])],
+        pose=Lattice() if pose else NoPose(),
+        displacement=displacement,
+        slip=slip,
+    )
     cells = rng.permutation(9)[: int(rng.integers(4, 8))]
-    for cell in cells.tolist():
-        map_.new_place((cell // 3, cell % 3), step=0)
-    for sight in "abc":
-        map_.new_sight(sight, step=0)
-    learner = Learner(map_, Rates())
+    for at, cell in enumerate(cells.tolist()):
+        if pose:
+            map_.new_place((cell // 3, cell % 3), step=0)
+        else:
+            free = [(p, a) for p in range(at) for a in range(4) if map_.beyond(p, a) is None]
+            source, action = free[int(rng.integers(len(free)))] if free else (None, None)
+            map_.new_place(step=0, source=source, action=action)
+    for sight in map_.sights_sensed:
+        for label in "abc":
+            sight.read(label, step=0)
     for place in map_.places:
-        learner.sight(place, int(rng.integers(3)), float(rng.random()) * 1e-8)
-        learner.doors(place, [*(rng.random(4) < 0.6), True], float(rng.random()) * 0.1)
+        readings = random_readings(map_, rng)
+        for name, reading in readings.items():
+            map_.sensors[name].learn(place, reading, float(rng.random()) * (0.1 if name == "open" else 1e-8))
         if place == 0 or rng.random() < 0.7:
             map_.mark_visited(place)
     return map_
 
 
-def brute_force(
-    map_: CognitiveMap, q: np.ndarray, evidence: Evidence, options: FilterOptions
-) -> tuple[np.ndarray, np.ndarray]:
+def random_readings(map_: CognitiveMap, rng: np.random.Generator) -> dict[str, Any]:
+    readings: dict[str, Any] = {sight.name: int(rng.integers(3)) for sight in map_.sights_sensed}
+    return readings | ({"open": (*(rng.random(4) < 0.5).tolist(), True)} if "open" in map_.sensors else {})
+
+
+def brute_force(map_: CognitiveMap, q: np.ndarray, percept: Percept, slip: float) -> tuple[np.ndarray, np.ndarray]:
     """Unnormalised joint [s', p', s, p, moved] with and without evidence, over every place and position."""
-    S, P, a = len(map_.places), len(map_.positions), evidence.action
+    S, P, a = len(map_.places), max(len(map_.positions), 1), percept.action
     assert a is not None
-    A, B, A_p = map_.A(), map_.B()[:-1], map_.positions_given_places()[:-1]
-    like = np.array([A[evidence.sight, s] * map_.doors_likelihood(np.array([s]), evidence.open)[0] for s in range(S)])
-    moves = 1.0 - options.slip if evidence.was_open else options.slip
-    if a == map_.motions.stay:
-        moves = 1.0
-    B_p = np.zeros((P, P))
-    for p in range(P):
+    B, lattice = map_.B()[:-1], len(map_.positions) > 0
+    A_p = map_.positions_given_places()[:-1] if lattice else np.ones((1, S))
+    like = np.ones(S)
+    for sight in map_.sights_sensed:
+        like *= sight.table.dense(3)[percept.readings[sight.name]]
+    blocked = map_.blocked(np.arange(S))
+    if percept.open is not None:
+        like *= np.where(percept.open, 1.0 - blocked, blocked)[:, :4].prod(axis=1)
+    moves = 1.0 - slip if percept.opened else slip
+    moves = 1.0 if a == map_.motions.stay else moves
+    B_p = np.zeros((P, P)) if lattice else np.ones((1, 1))
+    for p in range(P if lattice else 0):
         ahead = map_.positions.find(map_.motions.move(map_.positions[p], a))  # type: ignore[arg-type]
         if ahead is not None:
             B_p[ahead, p] += moves
         B_p[p, p] += 1.0 - moves
     joint = np.zeros((S, P, S, P, 2))
-    d = options.displacement
+    d = map_.displacement.probability if map_.displacement else 0.0
     joint[..., 0] = (1.0 - d) * np.einsum("ij,kl,ki,jl->ikjl", B[:, :, a], B_p, A_p, q)
     arrival = map_.visited / map_.visited.sum()
     joint[..., 1] = d * np.einsum("i,ki,jl->ikjl", arrival, A_p, q)
     predicted = joint.copy()
-    if not evidence.open[a]:  # not having got through and sensing the door shut are one event
+    if percept.open is not None and not percept.open[a]:  # not having got through and sensing it shut are one event
+        stays = 1.0 - moves if lattice else 1.0
         for s in range(S):
-            joint[s, :, s, :, 0] /= map_.blocked(np.array([s]))[0, a] * max(B[s, s, a], 1.0 - moves)
+            joint[s, :, s, :, 0] /= blocked[s, a] * max(B[s, s, a], stays) or 1.0
     return joint * like[:, None, None, None, None], predicted
 
 
@@ -99,32 +144,45 @@ def test_a_door_shut_in_the_face_is_one_surprise_and_not_three(closed: list[tupl
         assert agent.belief.place == agent.map.place_at((row - start[0], column - start[1]))
 
 
-@given(seed=st.integers(0, 10**6), action=st.integers(0, 4), displacement=st.sampled_from([0.0, 1e-4, 0.3]))
-@settings(max_examples=60, deadline=None)
-def test_one_step_is_the_exact_posterior(seed: int, action: int, displacement: float) -> None:
+lists = st.fixed_dictionaries(
+    {
+        "sights": st.integers(0, 3),
+        "ways": st.booleans(),
+        "pose": st.booleans(),
+        "displacement": st.sampled_from([None, 0.0, 1e-4, 0.3]),
+        "slip": st.sampled_from([1e-4, 0.05, 0.5]),
+    }
+)
+
+
+@given(seed=st.integers(0, 10**6), action=st.integers(0, 4), factors=lists)
+@settings(max_examples=300, deadline=None)
+def test_the_filter_is_the_two_slice_graph_is_brute_force(seed: int, action: int, factors: dict[str, Any]) -> None:
     rng = np.random.default_rng(seed)
-    map_ = random_map(rng)
-    options = FilterOptions(displacement=displacement, slip=0.05, support=0.0)
-    S, P = len(map_.places), len(map_.positions)
-    held = rng.permutation(S)[: int(rng.integers(1, S))]
+    map_ = random_map(rng, **factors)
+    S, P = len(map_.places), max(len(map_.positions), 1)
+    held = np.sort(rng.permutation(S)[: int(rng.integers(1, S))])
+    poses = map_.pose.of(held)
     mass = rng.dirichlet(np.ones(len(held)))
     q = np.zeros((S, P))
-    q[held, map_.position_index[held]] = mass
-    evidence = Evidence(action, bool(rng.random() < 0.5), int(rng.integers(3)), [*(rng.random(4) < 0.5).tolist(), True])
-    joint, predicted = brute_force(map_, q, evidence, options)
+    q[held, poses] = mass
+    percept = Percept(action, bool(rng.random() < 0.5), random_readings(map_, rng))
+    joint, predicted = brute_force(map_, q, percept, factors["slip"])
     z = joint.sum()
-    belief = advance(map_, Message(held, map_.position_index[held], mass), evidence, options)
+    belief = advance(map_, Message(held, poses, mass), percept, support=0.0)
 
     posterior = joint.sum(axis=(2, 3, 4)) / z
     found = np.zeros((S, P))
     found[belief.message.places, belief.message.positions] = belief.message.mass
     np.testing.assert_allclose(found, posterior, atol=1e-9)
     assert belief.evidence == pytest.approx(np.log(z), abs=1e-9)
+    assert belief.dropped == pytest.approx(0.0, abs=1e-9)
     if belief.examined:
         assert belief.moved == pytest.approx(joint[..., 1].sum() / z, abs=1e-9)
-    walks = np.zeros((S, S))
-    np.add.at(walks, (belief.walks[1], belief.walks[0]), belief.walks[2])
-    np.testing.assert_allclose(walks, joint[..., 0].sum(axis=(1, 3)) / z, atol=1e-9)
+    pairwise = np.zeros((S, S))
+    np.add.at(pairwise, (belief.pairwise[1], belief.pairwise[0]), belief.pairwise[2])
+    np.testing.assert_allclose(pairwise, joint[..., 0].sum(axis=(1, 3)) / z, atol=1e-9)
+
     # free energy, from its definition
     prior = predicted.sum(axis=(2, 3, 4))
     used = posterior > 0.0
@@ -133,29 +191,62 @@ def test_one_step_is_the_exact_posterior(seed: int, action: int, displacement: f
     assert belief.complexity == pytest.approx(complexity, abs=1e-7)
     assert belief.accuracy == pytest.approx(accuracy, abs=1e-7)
     assert belief.free_energy == pytest.approx(-np.log(z), abs=1e-7)
-    assert belief.dropped == pytest.approx(0.0, abs=1e-9)
+
+    # the same from the graph
+    graph = two_slices(map_, Message(held, poses, mass), belief, percept)
+    names = ("s1", "s0", *(["moved1"] if map_.displacement else []))
+    exact = infer(graph, pairs=[names])
+    assert exact.log_evidence == pytest.approx(np.log(z), abs=1e-9)
+    s1, s0 = (np.array(graph.variable_named(name).domain) for name in names[:2])
+    np.testing.assert_allclose(exact.marginal("s1"), posterior.sum(axis=1)[s1], atol=1e-9)
+    pairs = exact.joint(*names)
+    pairs = pairs[..., 0] if map_.displacement else pairs
+    np.testing.assert_allclose(pairs, pairwise[np.ix_(s1, s0)], atol=1e-9)
+    if map_.displacement:
+        assert exact.marginal("moved1")[1] == pytest.approx(belief.moved, abs=1e-9)
+
+
+def two_slices(map_: CognitiveMap, message: Message, belief: Belief, percept: Percept) -> FactorGraph:
+    """The window of what was believed, and of one step from there."""
+    window: list[Slice] = []
+    before = Percept(None, False, percept.readings)
+    for step, (held, seen, told, ahead) in enumerate(
+        (
+            (message, before, map_.likelihoods(message.places, before), None),
+            (belief.message, percept, belief.likelihoods, belief.ahead),
+        )
+    ):
+        pairs = held.places, held.positions, held.mass
+        last = window[-1] if window else None
+        window.append(
+            take_slice(map_, last, pairs, told, step=step, percept=seen, examined=belief.examined, ahead=ahead)
+        )
+    return window_graph(map_, window)
 
 
 def test_the_first_belief_knows_its_place() -> None:
     map_ = random_map(np.random.default_rng(3))
-    evidence = Evidence(None, False, 1, [True, False, True, True, True])
-    belief = begin(map_, 2, evidence)
+    percept = Percept(None, False, {"sight": 1, "open": (True, False, True, True, True)})
+    belief = begin(map_, 2, percept)
     assert belief.places == {2: 1.0}
     assert belief.positions == {int(map_.position_index[2]): 1.0}
     assert (belief.place, belief.certainty, belief.moved, belief.complexity) == (2, 1.0, 0.0, 0.0)
-    like = map_.A()[1, 2] * map_.doors_likelihood(np.array([2]), evidence.open)[0]
-    assert belief.evidence == pytest.approx(np.log(like)) == pytest.approx(belief.accuracy)
-    assert all(len(part) == 0 for part in belief.walks)
+    like = np.log(map_.A()[1, 2]) + map_.sensors["open"].log_likelihood(np.array([2]), percept.open)[0]
+    assert belief.evidence == pytest.approx(like) == pytest.approx(belief.accuracy)
+    assert all(len(part) == 0 for part in belief.pairwise)
+
+
+ALL_OPEN = (True,) * 5
 
 
 @pytest.mark.parametrize("support", [0.0, 0.01, 0.2, 1.0])
 def test_what_is_left_out_of_the_support_is_told(support: float) -> None:
-    map_ = random_map(np.random.default_rng(8))
+    map_ = random_map(np.random.default_rng(8), displacement=0.3, slip=0.05)
     held = np.array([0, 1, 2, 3])
     message = Message(held, map_.position_index[held], np.full(4, 0.25))
-    evidence = Evidence(RIGHT, True, 0, [True, True, True, True, True])
-    exact = advance(map_, message, evidence, FilterOptions(displacement=0.3, slip=0.05, support=0.0))
-    cut = advance(map_, message, evidence, FilterOptions(displacement=0.3, slip=0.05, support=support))
+    percept = Percept(RIGHT, True, {"sight": 0, "open": ALL_OPEN})
+    exact = advance(map_, message, percept, support=0.0)
+    cut = advance(map_, message, percept, support=support)
     kept = {place: q for place, q in exact.places.items() if q >= min(support, exact.certainty)}
     assert cut.places == pytest.approx({place: q / sum(kept.values()) for place, q in kept.items()})
     assert cut.evidence == pytest.approx(exact.evidence + np.log(sum(kept.values())))
@@ -164,14 +255,42 @@ def test_what_is_left_out_of_the_support_is_told(support: float) -> None:
 
 
 def test_being_moved_is_not_examined_where_it_would_be_dropped() -> None:
+    percept = Percept(4, True, {"sight": 0, "open": ALL_OPEN})
+    for displacement, support, examined in ((1e-15, 0.5, False), (0.1, 0.0, True)):
+        map_ = random_map(np.random.default_rng(1), displacement=displacement)
+        message = Message(np.array([0]), map_.position_index[[0]], np.ones(1))
+        belief = advance(map_, message, percept, support=support)
+        assert belief.examined == examined
+        if not examined:
+            assert belief.moved == 0.0
+            assert belief.dropped == pytest.approx(displacement / (displacement + np.exp(belief.evidence)))
+
+
+def test_likelihoods_too_small_to_be_told_from_zero_are_still_weighed() -> None:
+    map_ = random_map(np.random.default_rng(5), sights=3, displacement=0.3)
+    for sight in map_.sights_sensed:
+        sight.table.background = 1e-160
+    message = Message(np.array([0, 1]), map_.position_index[[0, 1]], np.full(2, 0.5))
+    percept = Percept(RIGHT, True, {**dict.fromkeys(SIGHTS, 0), "open": ALL_OPEN})
+    map_.sights_sensed[2].learn(0, 1, 1.0)
+    belief = advance(map_, message, percept, support=0.0)
+    assert np.isfinite(belief.evidence)
+    assert sum(belief.places.values()) == pytest.approx(1.0)
+
+
+def test_a_percept_without_an_action_is_the_first() -> None:
     map_ = random_map(np.random.default_rng(1))
-    message = Message(np.array([0]), map_.position_index[[0]], np.ones(1))
-    evidence = Evidence(4, True, 0, [True] * 5)
-    likely = advance(map_, message, evidence, FilterOptions(displacement=1e-15, support=0.5))
-    assert not likely.examined
-    assert likely.moved == 0.0
-    assert 0.0 < likely.dropped < 1e-6
-    assert advance(map_, message, evidence, FilterOptions(displacement=0.1, support=0.0)).examined
+    message = Message.sure(0, int(map_.position_index[0]))
+    with pytest.raises(CogmapError, match=r"no action; use begin\(\)"):
+        advance(map_, message, Percept(None, False, {"sight": 0, "open": ALL_OPEN}))
+
+
+def test_an_action_that_leads_nowhere_is_impossible() -> None:
+    map_ = CognitiveMap(Motions.of(GRID), displacement=0.0, slip=0.0)
+    map_.new_place((0, 0), step=0)
+    map_.sensors["sight"].read("a", step=0)
+    with pytest.raises(ImpossibleEvidence, match="leads nowhere in this model"):
+        advance(map_, Message.sure(0, 0), Percept(RIGHT, True, {"sight": 0, "open": ALL_OPEN}))
 
 
 # -- the window ------------------------------------------------------------------------------------------------
@@ -204,7 +323,7 @@ def joint_of(agent: Agent, graph: FactorGraph, belief: Belief) -> np.ndarray:
 def walks_of(graph: FactorGraph, t: int, belief: Belief) -> np.ndarray:
     now, before = graph.variable_named(f"s{t}"), graph.variable_named(f"s{t - 1}")
     table = np.zeros((now.cardinality, before.cardinality))
-    for previous, next_, mass in zip(*(part.tolist() for part in belief.walks), strict=True):
+    for previous, next_, mass in zip(*(part.tolist() for part in belief.pairwise), strict=True):
         table[now.index(next_), before.index(previous)] += mass
     return table
 
@@ -316,12 +435,10 @@ def test_the_window_slides() -> None:
 
 
 def two_hypotheses() -> tuple[CognitiveMap, Belief]:
-    map_ = random_map(np.random.default_rng(8))
+    map_ = random_map(np.random.default_rng(8), displacement=0.3, slip=0.05)
     held = np.array([0, 1, 2, 3])
     message = Message(held, map_.position_index[held], np.array([0.4, 0.3, 0.2, 0.1]))
-    belief = advance(
-        map_, message, Evidence(RIGHT, True, 0, [True] * 5), FilterOptions(displacement=0.3, slip=0.05, support=0.0)
-    )
+    belief = advance(map_, message, Percept(RIGHT, True, {"sight": 0, "open": ALL_OPEN}), support=0.0)
     assert len(belief.places) > 2
     return map_, belief
 
@@ -332,9 +449,9 @@ def test_a_committed_belief_has_one_place() -> None:
     assert committed.places == {belief.place: pytest.approx(1.0)}
     assert committed.evidence == pytest.approx(belief.evidence + np.log(belief.certainty))
     assert committed.dropped == pytest.approx(1.0 - belief.certainty)
-    there = belief.walks[1] == belief.place
-    assert committed.walks[2].sum() == pytest.approx(belief.walks[2][there].sum() / belief.certainty)
-    assert (committed.walks[1] == belief.place).all()
+    there = belief.pairwise[1] == belief.place
+    assert committed.pairwise[2].sum() == pytest.approx(belief.pairwise[2][there].sum() / belief.certainty)
+    assert (committed.pairwise[1] == belief.place).all()
     twice = committed.committed()
     assert (twice.places, twice.evidence) == (committed.places, pytest.approx(committed.evidence))
 
@@ -348,25 +465,26 @@ def test_a_committed_belief_has_its_own_free_energy() -> None:
 def test_a_committed_belief_has_its_own_probability_of_having_been_moved() -> None:
     _, belief = two_hypotheses()
     committed = belief.committed()
-    assert committed.moved == pytest.approx(1.0 - committed.walks[2].sum(), abs=1e-9)
+    assert committed.moved == pytest.approx(1.0 - committed.pairwise[2].sum(), abs=1e-9)
 
 
 # -- a large map -----------------------------------------------------------------------------------------------
 
 
-def large_map(rng: np.random.Generator, sights: int) -> CognitiveMap:
+def large_map(rng: np.random.Generator, sights: int, displacement: float) -> CognitiveMap:
     """Twelve by ten places, most of them visited and most of those seen for sure."""
-    map_ = CognitiveMap(Motions.of(GRID))
+    map_ = CognitiveMap(Motions.of(GRID), displacement=displacement)
     for cell in range(120):
         map_.new_place((cell // 10, cell % 10), step=0)
     for sight in range(sights):
-        map_.new_sight(sight, step=0)
-    learner = Learner(map_, Rates())
+        map_.sensors["sight"].read(sight, step=0)
     for place in rng.permutation(120)[:110].tolist():
         map_.mark_visited(place)
         for _ in range(int(rng.integers(1, 3))):
-            learner.sight(place, int(rng.integers(sights)), float(rng.choice([1.0, 0.8, 1e-3], p=[0.7, 0.2, 0.1])))
-        learner.doors(place, [*(rng.random(4) < 0.6), True], 1.0)
+            map_.sensors["sight"].learn(
+                place, int(rng.integers(sights)), float(rng.choice([1.0, 0.8, 1e-3], p=[0.7, 0.2, 0.1]))
+            )
+        map_.sensors["open"].learn(place, [*(rng.random(4) < 0.6), True], 1.0)
     return map_
 
 
@@ -382,23 +500,22 @@ def test_looking_a_sight_up_changes_nothing(
     seed: int, action: int, displacement: float, support: float, sights: int
 ) -> None:
     rng = np.random.default_rng(seed)
-    map_ = large_map(rng, sights)
-    options = FilterOptions(displacement=displacement, support=support)
+    map_ = large_map(rng, sights, displacement)
     held = rng.permutation(120)[: int(rng.integers(1, 5))]
     message = Message(held, map_.position_index[held], rng.dirichlet(np.ones(len(held))))
-    doors = [*(rng.random(4) < 0.5).tolist(), True]
-    evidence = Evidence(action, bool(rng.random() < 0.5), int(rng.integers(sights)), doors)
-    belief = advance(map_, message, evidence, options)
-    map_.visited_with = lambda sight: (map_.visited_places, 0.0)  # type: ignore[method-assign]
-    plain = advance(map_, message, evidence, options)
+    doors = (*(rng.random(4) < 0.5).tolist(), True)
+    percept = Percept(action, bool(rng.random() < 0.5), {"sight": int(rng.integers(sights)), "open": doors})
+    belief = advance(map_, message, percept, support=support)
+    map_.candidates = lambda percept: None  # type: ignore[method-assign]
+    plain = advance(map_, message, percept, support=support)
 
     for name in ("places", "positions", "mass"):
         np.testing.assert_allclose(getattr(belief.message, name), getattr(plain.message, name), rtol=0, atol=1e-9)
-    for one, other in zip(belief.walks, plain.walks, strict=True):
+    for one, other in zip(belief.pairwise, plain.pairwise, strict=True):
         np.testing.assert_allclose(one, other, rtol=0, atol=1e-9)
     assert belief.evidence == pytest.approx(plain.evidence, abs=1e-9)
     assert belief.moved == pytest.approx(plain.moved, abs=1e-9)
     assert plain.dropped - 1e-12 <= belief.dropped <= plain.dropped + 1e-6
-    told = dict(zip(*belief.faint, strict=True))
-    for place, odds in zip(*plain.faint, strict=True):  # rivals hear of every one that matters
+    told = dict(zip(*belief.pruned, strict=True))
+    for place, odds in zip(*plain.pruned, strict=True):  # rivals hear of every one that matters
         assert place in told or odds < 1e-8

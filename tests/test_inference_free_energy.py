@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from cogmap.inference import ImpossibleEvidence, free_energy, free_energy_of, infer
 from cogmap.inference.free_energy import is_likelihood
+from cogmap.model import FactorGraph
 from cogmap.model.errors import CogmapError
-from cogmap.model.factor_graph import FactorGraph
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_inference_graphs import evidences, graphs, ladder
@@ -165,3 +165,19 @@ def test_bad_q(q, message):
     graph.factor("f", ["a"], [0.2, 0.8])
     with pytest.raises(CogmapError, match=message):
         free_energy_of(graph, q)
+
+
+def test_soft_evidence_is_a_likelihood():
+    graph = FactorGraph()
+    a = graph.variable("a", [0, 1])
+    graph.factor("prior", ["a"], [0.2, 0.8], kind="prior")
+    soft = {"a": {0: 0.9, 1: 0.3}}
+    for parts in (
+        free_energy(infer(graph, evidence=soft)),
+        free_energy(infer(graph.observe_all(soft))),
+        free_energy_of(graph, {a: np.array([0.18, 0.24]) / 0.42}, evidence=soft),
+    ):
+        assert_identities(parts)
+        assert parts.free_energy == pytest.approx(-math.log(0.42))
+        assert parts.log_prior_normaliser == pytest.approx(0, abs=1e-12)
+        assert parts.accuracy == pytest.approx((0.18 * math.log(0.9) + 0.24 * math.log(0.3)) / 0.42)

@@ -12,9 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.model import CogmapError, ConditionalTable, FactorGraph
-from cogmap.model.factors import sparse_values
-from cogmap.model.graph_svg import MOST
+from cogmap.model import MOST_DRAWN, CogmapError, ConditionalTable, FactorGraph, sparse_values
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -276,7 +274,7 @@ def test_svg_is_xml_whatever_the_names(graph: FactorGraph) -> None:
 def test_svg_of_nothing_and_of_too_much_is_none() -> None:
     graph = FactorGraph()
     assert graph._repr_svg_() is None
-    for i in range(MOST):
+    for i in range(MOST_DRAWN):
         graph.variable(f"x{i}", [0])
     assert graph._repr_svg_() is not None
     graph.factor("f", ["x0"], [1])

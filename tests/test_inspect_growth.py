@@ -18,12 +18,12 @@ from walks import DOWN, GRID, walk, walked
 def by_hand() -> CognitiveMap:
     map_ = CognitiveMap(Motions.of(GRID))
     map_.new_place((0, 0), step=0)  # place 0
-    map_.new_sight("hall", step=0)
+    map_.sensors["sight"].read("hall", step=0)
     map_.new_place((1, 0), step=1, source=0, action=DOWN)  # place 1
+    mark = map_.changes.mark()
     map_.new_place((2, 0), step=1, source=1, action=DOWN)  # place 2, taken away at step 3
     map_.grow_time(step=2)
-    map_.unbind(2, step=3)
-    map_.shrink(places=2, step=3)
+    map_.take_back(mark, step=3)
     map_.new_place((1, 1), step=4, source=1, action=3)  # place 2 again, another one
     return map_
 
@@ -69,8 +69,9 @@ def test_positions_given_and_lost_without_a_new_place() -> None:
     map_.new_place(None, step=0)
     map_.new_place(None, step=0)
     map_.bind(0, (0, 0), step=1)
+    mark = map_.changes.mark()
     map_.bind(1, (1, 0), step=2)
-    map_.unbind(1, step=3)
+    map_.take_back(mark, step=3)
     assert growth_between(map_, 1, 2).bound == ((0, (0, 0)), (1, (1, 0)))
     assert growth_between(map_, 1).bound == ((0, (0, 0)),)
     assert growth_between(map_, 3).unbound == ((1, (1, 0)),)

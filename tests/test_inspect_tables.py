@@ -7,9 +7,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.model import CogmapError, CognitiveMap, ConditionalTable, FactorGraph, Motions
+from cogmap.model import (
+    CogmapError,
+    CognitiveMap,
+    ConditionalTable,
+    FactorGraph,
+    LabelledTable,
+    Motions,
+    labelled,
+    table,
+)
 from cogmap.model.map_tables import counts_of, map_table
-from cogmap.model.tables import LabelledTable, labelled, table
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -147,7 +155,7 @@ def test_counts_of_a_place_leave_the_prior_out() -> None:
     map_ = CognitiveMap(Motions.of(GRID))
     map_.new_place((0, 0), step=0)
     assert all(not found for found in counts_of(map_, 0).values())
-    map_.new_sight("hall", step=0)
+    map_.sensors["sight"].read("hall", step=0)
     map_.A_o.add(0, 0, 2.0)
     map_.B_s.add(map_.row(0, 1), -1, 3.0)
     assert counts_of(map_, 0)["A_o"] == {"hall": 2.0}

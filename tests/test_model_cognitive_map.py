@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
+import json
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from cogmap.model import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, CogmapError, CognitiveMap, Learner, Motions, Priors, Rates
-from cogmap.model.map_state import map_arrays, restore_map
+from cogmap.model import (
+    BLOCKED,
+    ELSEWHERE,
+    OPEN,
+    UNKNOWN,
+    CogmapError,
+    CognitiveMap,
+    Motions,
+    Priors,
+    map_state,
+    restore_map,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import DOWN, GRID, LEFT, RIGHT, STAY, UP, assert_map_is_sound, assert_same_map
@@ -38,7 +49,7 @@ def test_neighbours_are_linked_both_ways_in_any_order_and_dimension(n: int, data
     map_ = CognitiveMap(axes(n))
     for i, position in enumerate(cells):
         if data.draw(st.booleans()):
-            map_.new_position(position, step=i)
+            map_.pose.new_position(position, step=i)
         assert map_.new_place(position, step=i) == i
     assert_map_is_sound(map_)
     for place, position in enumerate(cells):
@@ -71,7 +82,7 @@ def test_sights_widen_A(met: list[object]) -> None:
     map_ = grid_map((0, 0), (0, 1))
     for step, sight in enumerate(met):
         before = len(map_.sights)
-        number = map_.new_sight(sight, step=step)
+        number = map_.sensors["sight"].read(sight, step=step)
         assert map_.sights[number] == sight
         assert len(map_.sights) - before == (number == before)
     A = map_.A()
@@ -82,7 +93,7 @@ def test_sights_widen_A(met: list[object]) -> None:
 
 def test_positions_grow_once_and_know_their_neighbours() -> None:
     map_ = CognitiveMap(Motions.of(GRID))
-    numbers = [map_.new_position(position, step=0) for position in ((0, 0), (5, 5), (0, 1), (0, 0))]
+    numbers = [map_.pose.new_position(position, step=0) for position in ((0, 0), (5, 5), (0, 1), (0, 0))]
     assert numbers == [0, 1, 2, 0]
     assert map_.position_beyond.tolist() == [[-1, -1, -1, 2, 0], [-1, -1, -1, -1, 1], [-1, -1, 0, -1, 2]]
     assert map_.place_at((0, 1)) is None
@@ -137,8 +148,7 @@ def test_visits_keep_their_order() -> None:
 
 def test_doors_likelihood_is_the_product_over_the_doors() -> None:
     map_ = grid_map((0, 0), (0, 1))
-    learner = Learner(map_, Rates())
-    learner.doors(0, [False, True, False, True, True], 1.0)
+    map_.sensors["open"].learn(0, [False, True, False, True, True], 1.0)
     B, places = map_.B(), np.array([0, 1])
     floor = map_.priors.door_floor
     for open_ in ([True] * 5, [False] * 5, [False, True, False, True, False]):
@@ -146,7 +156,7 @@ def test_doors_likelihood_is_the_product_over_the_doors() -> None:
         for place in places:
             p = [np.clip(B[place, place, a], floor, 1 - floor) for a in range(4)]
             expected.append(np.prod([1 - q if is_open else q for q, is_open in zip(p, open_, strict=False)]))
-        np.testing.assert_allclose(map_.doors_likelihood(places, open_), expected)
+        np.testing.assert_allclose(np.exp(map_.sensors["open"].log_likelihood(places, open_)), expected)
     assert map_.blocked(places)[:, STAY].tolist() == [0.0, 0.0]
 
 
@@ -175,7 +185,7 @@ def test_beyond_is_the_most_probable_other_place() -> None:
 def test_priors_are_used() -> None:
     map_ = CognitiveMap(Motions.of(GRID), priors=Priors(sight=2.0, position=3.0, transition=4.0))
     map_.new_place((0, 0), step=0)
-    map_.new_sight("a", step=0)
+    map_.sensors["sight"].read("a", step=0)
     assert map_.A_o.concentration(np.array([0]))[2].tolist() == [2.0]  # "a", and a sight never met
     assert map_.A_p.state()["prior"][0, 0] == 3.0
     assert map_.B_s.state()["prior"][0].tolist() == [4.0, 4.0]
@@ -183,11 +193,10 @@ def test_priors_are_used() -> None:
 
 def test_networkx_has_every_place_and_transition() -> None:
     map_ = grid_map((0, 0), (0, 1), (1, 0), (0, -1))
-    learner = Learner(map_, Rates())
-    learner.sight(0, map_.new_sight("hall", step=0), 1.0)
-    learner.doors(0, [False, True, True, True, True], 1.0)
-    learner.transition(0, RIGHT, 1, 1.0)
-    learner.doors(1, [False, False, True, False, True], 1.0)
+    map_.sensors["sight"].learn(0, map_.sensors["sight"].read("hall", step=0), 1.0)
+    map_.sensors["open"].learn(0, [False, True, True, True, True], 1.0)
+    map_.transitions.learn(0, RIGHT, 1, 1.0)
+    map_.sensors["open"].learn(1, [False, False, True, False, True], 1.0)
     map_.mark_visited(0)
     graph = map_.to_networkx()
     assert list(graph.nodes) == [0, 1, 2, 3]
@@ -209,23 +218,22 @@ def test_networkx_has_every_place_and_transition() -> None:
 def test_arrays_and_labels_make_the_same_map() -> None:
     map_ = grid_map((0, 0), (0, 1), (1, 1))
     for a, b in pairwise(["a", None, (1, "x")]):
-        map_.new_sight(a, step=1)
-        map_.new_sight(b, step=1)
+        map_.sensors["sight"].read(a, step=1)
+        map_.sensors["sight"].read(b, step=1)
     map_.grow_time(step=1)
     map_.new_place(None, step=2, source=0, action=DOWN)
-    learner = Learner(map_, Rates())
-    learner.sight(0, 1, 0.5)
-    learner.doors(0, [False, True, True, True, True], 1.0)
-    learner.transition(0, RIGHT, 1, 0.75)
+    map_.sensors["sight"].learn(0, 1, 0.5)
+    map_.sensors["open"].learn(0, [False, True, True, True, True], 1.0)
+    map_.transitions.learn(0, RIGHT, 1, 0.75)
     map_.mark_visited(1)
-    arrays = map_arrays(map_)
+    header, arrays = map_state(map_)
     copy = CognitiveMap(map_.motions)
-    restore_map(copy, arrays, list(map_.sights), list(map_.positions))
+    restore_map(copy, json.loads(json.dumps(header)), arrays)
     assert_same_map(map_, copy)
     for one in (map_, copy):  # and they go on alike
         one.new_place((1, 0), step=3, source=0, action=DOWN)
-        one.new_sight("new", step=3)
-        Learner(one, Rates()).doors(2, [True, False, True, False, True], 1.0)
+        one.sensors["sight"].read("new", step=3)
+        one.sensors["open"].learn(2, [True, False, True, False, True], 1.0)
     assert_same_map(map_, copy)
     assert len(arrays["A_o.keys"]) == 4  # the arrays are copies
     assert repr(copy) == "CognitiveMap(5 places, 1 visited, 4 positions, 4 sights)"
@@ -246,25 +254,26 @@ DAMAGE = {
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_damaged_arrays_are_refused(damage: str) -> None:
     map_ = grid_map((0, 0), (0, 1), (1, 1))
-    map_.new_sight("a", step=0)
+    map_.sensors["sight"].read("a", step=0)
     for place in (0, 1):
         map_.mark_visited(place)
-    arrays = map_arrays(map_)
+    header, arrays = map_state(map_)
     for name in arrays:
-        if name != "growth":
+        fewer_visits = name == "visits.order" and damage in ("half", "flat")
+        if name != "growth" and not name.startswith("changes") and not fewer_visits:  # the log is empty here
             with np.errstate(invalid="ignore"):
                 damaged = {**arrays, name: DAMAGE[damage](arrays[name])}
             with pytest.raises(CogmapError, match=r"does not fit|do not fit"):
-                restore_map(CognitiveMap(map_.motions), damaged, list(map_.sights), list(map_.positions))
+                restore_map(CognitiveMap(map_.motions), header, damaged)
     for name in arrays:
         fewer = {other: values for other, values in arrays.items() if other != name}
         with pytest.raises(KeyError):
-            restore_map(CognitiveMap(map_.motions), fewer, list(map_.sights), list(map_.positions))
+            restore_map(CognitiveMap(map_.motions), header, fewer)
 
 
 def test_what_was_sensed_is_told_by_name() -> None:
     map_ = grid_map((0, 0), (0, 1))
     assert (map_.sensed == UNKNOWN).all()
-    Learner(map_, Rates()).doors(0, [False, False, False, True, True], 1.0)
+    map_.sensors["open"].learn(0, [False, False, False, True, True], 1.0)
     assert map_.sensed[0].tolist() == [BLOCKED, BLOCKED, BLOCKED, OPEN, UNKNOWN]
     assert map_.sensed[0, UP] == BLOCKED

@@ -36,7 +36,8 @@ class AgainstBruteForce(RuleBasedStateMachine):
 
     @rule(rows=st.integers(1, 5))
     def append(self, rows: int) -> None:
-        assert self.table.append(rows) == len(self.prior)
+        self.table.resize(len(self.prior) + rows)
+        assert len(self.table) == len(self.prior) + rows
         for _ in range(rows):
             self.prior.append({})
             self.evidence.append({})
@@ -75,17 +76,22 @@ class AgainstBruteForce(RuleBasedStateMachine):
         for counts in (self.prior[row], self.evidence[row]):
             counts[to] = counts.pop(from_, 0.0)
 
-    @rule(at=shares, keep=st.floats(0.0, 1.0), everywhere=st.booleans())
-    def fade(self, at: int, keep: float, everywhere: bool) -> None:
-        if self.prior:
-            row = self.row(at)
-            self.table.fade(slice(len(self.table)) if everywhere else np.array([row]), keep)
-            for faded in self.evidence if everywhere else [self.evidence[row]]:
-                faded.update({key: value * keep for key, value in faded.items()})
+    @rule(rows=shares)
+    def drop(self, rows: int) -> None:
+        rows %= len(self.prior) + 1
+        self.table.resize(rows)
+        del self.prior[rows:], self.evidence[rows:]
+
+    @rule(keep=st.floats(0.0, 1.0))
+    def fade(self, keep: float) -> None:
+        self.table.fade(keep)
+        for faded in self.evidence:
+            faded.update({key: value * keep for key, value in faded.items()})
 
     @rule()
     def save_and_restore(self) -> None:
         restored = SparseDirichlet(slots=self.slots, background=self.background, outcomes=self.size)
+        restored.resize(len(self.table))
         restored.restore(self.table.state())
         self.table = restored
 
@@ -142,7 +148,7 @@ TestAgainstBruteForce = AgainstBruteForce.TestCase
 
 def test_evidence_is_taken_no_further_than_to_the_prior() -> None:
     table = SparseDirichlet(slots=2)
-    table.append(1)
+    table.resize(1)
     table.expect(0, 3, 0.5)
     assert table.add(0, 3, 2.0) == 2.0
     assert table.add(0, 3, -7.0) == -2.0
@@ -153,14 +159,14 @@ def test_evidence_is_taken_no_further_than_to_the_prior() -> None:
 
 def test_evidence_stops_at_the_ceiling() -> None:
     table = SparseDirichlet(slots=1)
-    table.append(1)
+    table.resize(1)
     assert [table.add(0, 0, 7.0, most=10.0) for _ in range(3)] == [7.0, 3.0, 0.0]
     assert table.add(0, 0, 1.0, most=5.0) == 0.0  # what is above stays
 
 
 def test_taking_away_what_was_never_there_takes_no_slot() -> None:
     table = SparseDirichlet(slots=1)
-    table.append(1)
+    table.resize(1)
     assert table.add(0, 5, -1.0) == 0.0
     assert table.add(0, 5, 0.0) == 0.0
     assert (table.state()["keys"] == EMPTY).all()
@@ -168,7 +174,7 @@ def test_taking_away_what_was_never_there_takes_no_slot() -> None:
 
 def test_a_row_without_counts_gives_everything_to_the_rest() -> None:
     table = SparseDirichlet(slots=1)
-    table.append(2)
+    table.resize(2)
     table.expect(1, 0, 1.0)
     np.testing.assert_array_equal(table.dense(2), [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0]])
     np.testing.assert_array_equal(table.probability(0, np.array([0, 1])), [0.0, 1.0])
@@ -176,12 +182,13 @@ def test_a_row_without_counts_gives_everything_to_the_rest() -> None:
 
 def test_state_is_a_copy() -> None:
     table = SparseDirichlet(slots=1)
-    table.append(1)
+    table.resize(1)
     table.add(0, 0, 1.0)
     state = table.state()
     table.add(0, 0, 1.0)
     assert state["evidence"][0, 0] == 1.0
     other = SparseDirichlet(slots=1)
+    other.resize(len(table))
     other.restore(state)
     other.add(0, 0, 5.0)
     assert state["evidence"][0, 0] == 1.0
@@ -190,7 +197,7 @@ def test_state_is_a_copy() -> None:
 def test_storage_grows_with_rows_and_outcomes() -> None:
     table = SparseDirichlet(slots=1)
     assert len(table) == table.nbytes == 0
-    table.append(100)
+    table.resize(100)
     for key in range(9):
         table.add(99, key, key + 1.0)
     assert [table.evidence(99, key) for key in range(9)] == [key + 1.0 for key in range(9)]
@@ -200,7 +207,7 @@ def test_storage_grows_with_rows_and_outcomes() -> None:
 
 def test_rename_keeps_the_counts_and_refuses_a_taken_name() -> None:
     table = SparseDirichlet(slots=2)
-    table.append(1)
+    table.resize(1)
     table.expect(0, -1, 0.5)
     table.add(0, -1, 2.0)
     table.rename(0, -1, 4)
@@ -213,7 +220,7 @@ def test_rename_keeps_the_counts_and_refuses_a_taken_name() -> None:
 
 def test_a_full_row_makes_room_for_a_prior_and_for_a_new_name() -> None:
     table = SparseDirichlet(slots=1)
-    table.append(1)
+    table.resize(1)
     table.expect(0, 0, 1.0)
     table.expect(0, 1, 2.0)  # the row had one slot
     table.rename(0, 5, 6)

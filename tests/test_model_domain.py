@@ -54,11 +54,12 @@ def test_a_domain_refuses_what_is_not_hashable(label: Any) -> None:
 @given(st.lists(st.integers(-(2**62), 2**62), max_size=40), st.integers(0, 40))
 @settings(max_examples=50, deadline=None)
 def test_a_column_holds_what_was_appended(numbers: list[int], restored_at: int) -> None:
-    column = Column(np.int64)
+    column = Column("numbers", np.int64)
     for i, number in enumerate(numbers):
         if i == restored_at:
             saved = column.values.copy()
-            column = Column(np.int64)
+            column = Column("numbers", np.int64)
+            column.resize(len(saved))
             column.restore(saved)
         assert column.append(number) == i
     assert len(column) == len(numbers)
@@ -66,7 +67,7 @@ def test_a_column_holds_what_was_appended(numbers: list[int], restored_at: int) 
 
 
 def test_a_column_has_rows_and_is_written_through_its_view() -> None:
-    column = Column(np.int8, width=3)
+    column = Column("rows", np.int8, width=3)
     for i in range(20):
         column.append(i)
     column.append([1, 2, 3])
@@ -74,7 +75,8 @@ def test_a_column_has_rows_and_is_written_through_its_view() -> None:
     assert column.values.shape == (21, 3)
     assert column.values[4].tolist() == [4, 99, 4]
     assert column.values[20].tolist() == [1, 2, 3]
-    copy = Column(np.int8, width=3)
+    copy = Column("rows", np.int8, width=3)
+    copy.resize(len(column))
     copy.restore(column.values)
     copy.append(7)
     copy.values[0] = 1

@@ -14,9 +14,10 @@ from cogmap.model import (
     TEXT_RATES,
     UNKNOWN,
     CognitiveMap,
-    Learner,
     Motions,
+    ParameterUpdate,
     Rates,
+    updates,
 )
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -27,12 +28,12 @@ SHUT = (False, False, False, False, True)
 EAST = (False, False, False, True, True)
 
 
-def pair(rates: Rates = TABLE_RATES) -> tuple[CognitiveMap, Learner]:
+def pair(rates: Rates = TABLE_RATES) -> CognitiveMap:
     """Place A with place B to its right."""
-    map_ = CognitiveMap(Motions.of(GRID))
+    map_ = CognitiveMap(Motions.of(GRID), rates=rates)
     map_.new_place((0, 0), step=0)
     map_.new_place((0, 1), step=0)
-    return map_, Learner(map_, rates)
+    return map_
 
 
 def evidence(map_: CognitiveMap) -> dict[tuple[int, int, str], float]:
@@ -55,8 +56,8 @@ def test_the_two_tables_of_rates() -> None:
 @pytest.mark.parametrize("rates", [TABLE_RATES, TEXT_RATES])
 @pytest.mark.parametrize("weight", [1.0, 0.5, 0.3])
 def test_possible(rates: Rates, weight: float) -> None:
-    map_, learner = pair(rates)
-    learner.transition(A, RIGHT, B, weight)
+    map_ = pair(rates)
+    map_.transitions.learn(A, RIGHT, B, weight)
     forward, reverse = rates.possible
     assert evidence(map_) == pytest.approx({(B, A, "right"): weight * forward, (A, B, "left"): weight * reverse})
     assert map_.walked[A, RIGHT] == (weight > 0.5)
@@ -67,14 +68,14 @@ def test_possible(rates: Rates, weight: float) -> None:
 @pytest.mark.parametrize("weight", [1.0, 0.5])
 @pytest.mark.parametrize("how", ["door", "bump"])
 def test_impossible(rates: Rates, weight: float, how: str) -> None:
-    map_, learner = pair(rates)
+    map_ = pair(rates)
     for row, key in ((map_.row(A, RIGHT), B), (map_.row(B, LEFT), A)):
         map_.B_s.add(row, key, 100.0)  # more than the ceiling: it stays
     if how == "door":
-        learner.doors(A, (True, True, True, False, True), weight)
+        map_.sensors["open"].learn(A, (True, True, True, False, True), weight)
         assert map_.sensed[A, RIGHT] == BLOCKED
     else:
-        learner.transition(A, RIGHT, A, weight)
+        map_.transitions.learn(A, RIGHT, A, weight)
     forward, reverse = rates.impossible
     assert evidence(map_) == pytest.approx(
         {
@@ -88,130 +89,130 @@ def test_impossible(rates: Rates, weight: float, how: str) -> None:
 
 @pytest.mark.parametrize("weight", [1.0, 0.5])
 def test_imagined_once_a_place_and_action(weight: float) -> None:
-    map_, learner = pair()
+    map_ = pair()
     ahead = (True, True, True, True, True)  # nothing is known behind the others
     expected = {(B, A, "right"): 5.0 * weight, (A, B, "left"): 3.0 * weight}
     for _ in range(3):
-        learner.doors(A, ahead, weight)
+        map_.sensors["open"].learn(A, ahead, weight)
         assert evidence(map_) == pytest.approx(expected)
         assert map_.sensed[A, RIGHT] == OPEN
-    learner.doors(B, ahead, 1.0)  # seen from the other side: a look of its own
+    map_.sensors["open"].learn(B, ahead, 1.0)  # seen from the other side: a look of its own
     assert evidence(map_)[A, B, "left"] == pytest.approx(5.0)
     assert evidence(map_)[B, A, "right"] == pytest.approx(max(5.0 * weight, 3.0))
 
 
 def test_blocked_is_learned_once_while_nothing_changes() -> None:
-    map_, learner = pair()
-    learner.doors(A, SHUT, 1.0)
+    map_ = pair()
+    map_.sensors["open"].learn(A, SHUT, 1.0)
     once = evidence(map_)
-    learner.doors(A, SHUT, 1.0)
+    map_.sensors["open"].learn(A, SHUT, 1.0)
     assert evidence(map_) == once
     assert once[A, A, "right"] == 7.0
     assert once[B, B, "left"] == 5.0
 
 
 def test_a_wall_with_nothing_known_behind_adds_the_self_transition_alone() -> None:
-    map_, learner = pair()
-    learner.doors(A, EAST, 1.0)
+    map_ = pair()
+    map_.sensors["open"].learn(A, EAST, 1.0)
     assert {key: amount for key, amount in evidence(map_).items() if key[2] == "up"} == {(A, A, "up"): 7.0}
 
 
 def test_a_door_that_closes_and_opens_again() -> None:
-    map_, learner = pair()
+    map_ = pair()
     right, left = map_.row(A, RIGHT), map_.row(B, LEFT)
 
     def counts() -> list[float]:
         table = map_.B_s
         return [table.evidence(right, B), table.evidence(right, A), table.evidence(left, A), table.evidence(left, B)]
 
-    learner.doors(A, EAST, 1.0)
-    learner.transition(A, RIGHT, B, 1.0)
+    map_.sensors["open"].learn(A, EAST, 1.0)
+    map_.transitions.learn(A, RIGHT, B, 1.0)
     assert counts() == [7.0, 0.0, 7.0, 0.0]
-    learner.doors(A, SHUT, 1.0)
+    map_.sensors["open"].learn(A, SHUT, 1.0)
     assert counts() == [0.0, 7.0, 2.0, 5.0]
-    learner.doors(A, EAST, 1.0)  # the self-transitions are taken back, the way is imagined anew
+    map_.sensors["open"].learn(A, EAST, 1.0)  # the self-transitions are taken back, the way is imagined anew
     assert counts() == [5.0, 0.0, 3.0, 0.0]
-    learner.doors(A, SHUT, 1.0)
-    learner.doors(A, SHUT, 1.0)
+    map_.sensors["open"].learn(A, SHUT, 1.0)
+    map_.sensors["open"].learn(A, SHUT, 1.0)
     assert counts() == [0.0, 7.0, 0.0, 5.0]
 
 
 @pytest.mark.parametrize("rates", [TABLE_RATES, TEXT_RATES])
 def test_one_look_outweighs_any_number_of_walks(rates: Rates) -> None:
-    map_, learner = pair(rates)
+    map_ = pair(rates)
     for _ in range(100):
-        learner.transition(A, RIGHT, B, 1.0)
-        learner.transition(B, LEFT, A, 1.0)
+        map_.transitions.learn(A, RIGHT, B, 1.0)
+        map_.transitions.learn(B, LEFT, A, 1.0)
     assert evidence(map_) == {(B, A, "right"): rates.ceiling, (A, B, "left"): rates.ceiling}
-    learner.doors(A, SHUT, 1.0)
+    map_.sensors["open"].learn(A, SHUT, 1.0)
     assert map_.transition(A, A, RIGHT) > 0.99
     assert map_.transition(B, B, LEFT) > 0.6
-    learner.doors(A, EAST, 1.0)
+    map_.sensors["open"].learn(A, EAST, 1.0)
     assert map_.transition(B, A, RIGHT) > 0.99
     assert map_.transition(A, B, LEFT) > 0.6
 
 
 def test_a_look_at_an_open_door_mends_what_the_other_side_taught() -> None:
-    map_, learner = pair()
-    learner.doors(A, EAST, 1.0)
-    learner.doors(B, SHUT, 1.0)  # closed, seen from B; open again when A looks the next time
+    map_ = pair()
+    map_.sensors["open"].learn(A, EAST, 1.0)
+    map_.sensors["open"].learn(B, SHUT, 1.0)  # closed, seen from B; open again when A looks the next time
     assert map_.transition(B, A, RIGHT) < 0.6
-    learner.doors(A, EAST, 1.0)
+    map_.sensors["open"].learn(A, EAST, 1.0)
     assert map_.transition(B, A, RIGHT) > 0.99
 
 
 def test_a_look_restores_what_was_forgotten() -> None:
-    map_, learner = pair()
-    learner.doors(A, EAST, 1.0)
-    learner.forget(0.1)
-    learner.doors(A, EAST, 1.0)
+    map_ = pair()
+    map_.sensors["open"].learn(A, EAST, 1.0)
+    map_.transitions.forget(0.1)
+    map_.sensors["open"].learn(A, EAST, 1.0)
     assert evidence(map_)[B, A, "right"] == 5.0
     assert evidence(map_)[A, A, "up"] == 7.0
     assert evidence(map_)[A, B, "left"] == pytest.approx(0.3)  # the other side was not looked at
 
 
 def test_a_wall_with_nothing_known_behind_can_open() -> None:
-    map_, learner = pair()
-    learner.doors(A, SHUT, 1.0)
-    learner.doors(A, (True, False, False, False, True), 1.0)
+    map_ = pair()
+    map_.sensors["open"].learn(A, SHUT, 1.0)
+    map_.sensors["open"].learn(A, (True, False, False, False, True), 1.0)
     assert map_.transition(A, A, UP) <= 0.5
 
 
 def test_an_open_door_to_nowhere_is_forgotten() -> None:
-    map_, learner = pair()
-    learner.doors(A, (True, True, True, True, True), 1.0)
+    map_ = pair()
+    map_.sensors["open"].learn(A, (True, True, True, True, True), 1.0)
     assert map_.sensed[A].tolist() == [UNKNOWN, UNKNOWN, UNKNOWN, OPEN, UNKNOWN]
     assert evidence(map_) == {(B, A, "right"): 5.0, (A, B, "left"): 3.0}
 
 
 def test_staying_teaches_nothing_of_transitions() -> None:
-    map_, learner = pair()
-    learner.transition(A, STAY, A, 1.0)
-    learner.transition(A, STAY, B, 1.0)
-    learner.doors(A, (False, False, False, False, False), 1.0)
+    map_ = pair()
+    map_.transitions.learn(A, STAY, A, 1.0)
+    map_.transitions.learn(A, STAY, B, 1.0)
+    map_.sensors["open"].learn(A, (False, False, False, False, False), 1.0)
     assert not [key for key in evidence(map_) if key[2] == "stay"]
     assert map_.sensed[A, STAY] == UNKNOWN
 
 
 def test_a_new_place_is_told_of_doors_its_neighbours_saw_blocked() -> None:
-    map_, learner = pair()
-    learner.doors(A, SHUT, 1.0)
-    learner.doors(B, (False, False, True, False, True), 1.0)
+    map_ = pair()
+    map_.sensors["open"].learn(A, SHUT, 1.0)
+    map_.sensors["open"].learn(B, (False, False, True, False, True), 1.0)
     new = map_.new_place((1, 0), step=1)
     before = evidence(map_)
-    learner.recall(new)
+    map_.recall([new])
     after = evidence(map_)
     assert {key: after[key] for key in after.keys() - before.keys()} == {(new, new, "up"): 5.0}
-    learner.recall(map_.new_place((2, 0), step=1))  # its neighbour never looked
+    map_.recall([map_.new_place((2, 0), step=1)])  # its neighbour never looked
     assert evidence(map_) == after
 
 
 def test_likelihoods_are_weighted() -> None:
-    map_, learner = pair(Rates(likelihood=2.0))
-    sight = map_.new_sight("hall", step=0)
-    learner.sight(A, sight, 0.5)
-    learner.sight(A, sight, 0.25)
-    learner.position(B, 1, 0.5)
+    map_ = pair(Rates(likelihood=2.0))
+    sight = map_.sensors["sight"].read("hall", step=0)
+    map_.sensors["sight"].learn(A, sight, 0.5)
+    map_.sensors["sight"].learn(A, sight, 0.25)
+    map_.pose.learn(B, 0.5)
     assert map_.A_o.evidence(A, sight) == 1.5
     assert map_.A_o.evidence(B, sight) == 0.0
     assert map_.A_p.evidence(B, 1) == 1.0
@@ -219,31 +220,31 @@ def test_likelihoods_are_weighted() -> None:
 
 
 def test_forgetting_fades_transitions_only() -> None:
-    map_, learner = pair()
-    sight = map_.new_sight("hall", step=0)
-    learner.sight(A, sight, 1.0)
-    learner.transition(A, RIGHT, B, 1.0)
-    learner.forget(0.5)
+    map_ = pair()
+    sight = map_.sensors["sight"].read("hall", step=0)
+    map_.sensors["sight"].learn(A, sight, 1.0)
+    map_.transitions.learn(A, RIGHT, B, 1.0)
+    map_.transitions.forget(0.5)
     assert evidence(map_) == {(B, A, "right"): 3.5, (A, B, "left"): 2.5}
-    learner.forget(0.0)
+    map_.transitions.forget(0.0)
     assert evidence(map_) == {}
     assert map_.A_o.evidence(A, sight) == 1.0
     assert_map_is_sound(map_)
 
 
-def test_lessons_are_taken_once() -> None:
-    map_, learner = pair()
-    learner.sight(A, map_.new_sight("x", step=0), 1.0)
-    learner.transition(A, RIGHT, B, 1.0)
-    lessons = learner.take_lessons()
-    assert [(lesson.table, lesson.outcome, lesson.place, lesson.action, lesson.amount) for lesson in lessons] == [
-        ("A_o", 0, A, None, 1.0),
-        ("B_s", B, A, RIGHT, 7.0),
-        ("B_s", A, B, LEFT, 5.0),
+def test_updates_are_read_from_the_log() -> None:
+    map_ = pair()
+    cursor = len(map_.changes)
+    map_.sensors["sight"].learn(A, map_.sensors["sight"].read("x", step=0), 1.0)
+    map_.transitions.learn(A, RIGHT, B, 1.0)
+    entries, cursor = map_.changes.since(cursor)
+    assert updates(entries or ()) == [
+        ParameterUpdate("A_o", 0, A, None, 1.0),
+        ParameterUpdate("B_s", B, A, RIGHT, 7.0),
+        ParameterUpdate("B_s", A, B, LEFT, 5.0),
     ]
-    assert learner.take_lessons() == ()
-    learner.transition(A, RIGHT, B, 0.0)
-    assert learner.take_lessons() == ()
+    map_.transitions.learn(A, RIGHT, B, 0.0)
+    assert updates(map_.changes.since(cursor)[0] or ()) == []
 
 
 doors = st.tuples(*[st.booleans()] * 4, st.just(True))
@@ -261,25 +262,25 @@ lesson = st.one_of(
 @given(st.lists(lesson, max_size=40), st.sampled_from([TABLE_RATES, TEXT_RATES]))
 @settings(max_examples=60, deadline=None)
 def test_any_lessons_keep_counts_above_the_prior_and_add_up(lessons: list[tuple[Any, ...]], rates: Rates) -> None:
-    map_ = CognitiveMap(Motions.of(GRID))
+    map_ = CognitiveMap(Motions.of(GRID), rates=rates)
     for position in ((0, 0), (0, 1), (1, 0), (1, 1)):
         map_.new_place(position, step=0)
     for sight in "ab":
-        map_.new_sight(sight, step=0)
-    learner = Learner(map_, rates)
+        map_.sensors["sight"].read(sight, step=0)
+    cursor = len(map_.changes)
     for kind, at, what, weight in lessons:
         if kind == "doors":
-            learner.doors(at, what, weight)
+            map_.sensors["open"].learn(at, what, weight)
         elif kind == "sight":
-            learner.sight(at, what, weight)
+            map_.sensors["sight"].learn(at, what, weight)
         elif kind == "recall":
-            learner.recall(at)
+            map_.recall([at])
         else:
             beyond = None if kind == "bump" else map_.beyond(at, what)
-            learner.transition(at, what, at if beyond is None else beyond, weight)
+            map_.transitions.learn(at, what, at if beyond is None else beyond, weight)
     assert_map_is_sound(map_)
     total: dict[tuple[str, int, int], float] = {}
-    for taught in learner.take_lessons():
+    for taught in updates(map_.changes.since(cursor)[0] or ()):
         row = taught.place if taught.action is None else map_.row(taught.place, taught.action)
         key = (taught.table, row, taught.outcome)
         total[key] = total.get(key, 0.0) + taught.amount

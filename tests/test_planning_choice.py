@@ -3,34 +3,44 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from cogmap.model.errors import CogmapError
 from cogmap.planning import (
-    ExpectedFreeEnergy,
+    POLICIES,
+    Best,
+    Choice,
+    LocalModel,
+    MapGuided,
+    Outward,
     Plan,
+    Planner,
     Policies,
-    Reach,
-    choose,
+    Sampled,
+    Transitions,
+    Utility,
     evaluate,
-    map_guided,
-    plan,
     policy_posterior,
 )
-from cogmap.planning.choice import SLACK
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reaches import grid_reach, random_reach
+from local_models import grid_model, random_model
 
+Floats = np.ndarray
+SLACK = Outward().slack
 HALL = [(0, j) for j in range(5)]
 
 
-def with_G(G: list[float]) -> tuple[Policies, ExpectedFreeEnergy]:
+def with_G(G: list[float]) -> tuple[Policies, Floats]:
     """One policy a value, its first action its index modulo 5."""
-    zero = np.zeros(len(G))
     policies = Policies(np.stack([np.arange(len(G)) % 5, np.arange(len(G))], axis=1) % 5)
-    return policies, ExpectedFreeEnergy(zero, zero, zero, zero, zero, np.array(G))
+    return policies, np.array(G)
+
+
+def choose(model: LocalModel, policies: Policies, G: Floats, *, choice: Choice = Outward(), rng: Any) -> int:  # noqa: B008
+    return choice.choose(model, policies.actions, G, policy_posterior(G), rng)
 
 
 @settings(max_examples=30, deadline=None)
@@ -58,93 +68,97 @@ def test_posterior_bad_input(G: list[float], precision: float, message: str) -> 
 
 
 def test_best_breaks_ties_evenly_and_among_those_that_move_least_where_something_is_preferred() -> None:
-    _, terms = with_G([1.0, 0.0, 2.0, 1e-10, 0.0, 0.01])
+    _, G = with_G([1.0, 0.0, 2.0, 1e-10, 0.0, 0.01])
     # policies 1, 3 and 4 are as good as the best; 4 moves twice, the other two once
     policies = Policies(np.array([[4, 4], [0, 4], [1, 4], [2, 4], [0, 0], [3, 4]]))
     rng = np.random.default_rng(0)
-    exploring = replace(random_reach(0), log_C=np.zeros(4), log_C_place=np.zeros(5), frontier=np.full(5, -1.0))
-    assert {choose(exploring, policies, terms, rng=rng).chosen for _ in range(400)} == {1, 3, 4}
+    exploring = replace(random_model(0), log_C=np.zeros(4), log_C_place=np.zeros(5), entered=np.full(5, True))
+    assert {choose(exploring, policies, G, rng=rng) for _ in range(400)} == {1, 3, 4}
     preferring = replace(exploring, log_C=np.array([0.0, 1.0, 0.0, 0.0]))
-    chosen = [choose(preferring, policies, terms, rng=rng).chosen for _ in range(400)]
+    chosen = [choose(preferring, policies, G, rng=rng) for _ in range(400)]
     assert set(chosen) == {1, 3}
     assert 150 < chosen.count(1) < 250
 
 
 def test_exploring_goes_furthest_out_first_of_what_is_nearly_as_good() -> None:
     corridor = [(0, column) for column in range(6)]
-    reach = grid_reach(corridor, visited=corridor[1:5], at=(0, 2))
+    model = grid_model(corridor, visited=corridor[1:5], at=(0, 2))
     LEFT, RIGHT, STAY = 2, 3, 4  # two moves to either end; the right one is further from the origin
     policies = Policies(np.array([[LEFT, LEFT, STAY], [RIGHT, RIGHT, RIGHT], [STAY, STAY, STAY]]))
     rng = np.random.default_rng(0)
 
-    def chosen(G: list[float], reach: Reach = reach) -> set[int]:
-        return {choose(reach, policies, with_G(G)[1], rng=rng).chosen for _ in range(20)}
+    def chosen(G: list[float], model: LocalModel = model) -> set[int]:
+        return {choose(model, policies, with_G(G)[1], rng=rng) for _ in range(20)}
 
     assert chosen([0.0, 0.9 * SLACK, 0.0]) == {1}
     assert chosen([0.0, 1.1 * SLACK, 0.0]) == {0}
     assert chosen([0.9 * SLACK, 1.1 * SLACK, 0.0]) == {0}  # any frontier before none
-    assert chosen([0.0, 0.5 * SLACK, 0.0], replace(reach, log_C=np.arange(7.0))) == {2}  # a wish: only the best count
-    for nothing_new in (np.full(6, -1.0), np.zeros(0)):
-        assert chosen([0.0, 0.5 * SLACK, 0.0], replace(reach, frontier=nothing_new)) == {0, 2}
+    assert chosen([0.0, 0.5 * SLACK, 0.0], replace(model, log_C=np.arange(7.0))) == {2}  # a wish: only the best count
+    for nothing_new in ({"entered": np.full(6, True)}, {"position": np.full((6, 2), np.nan)}):
+        assert chosen([0.0, 0.5 * SLACK, 0.0], replace(model, **nothing_new)) == {0, 2}
 
 
 def test_sampled_draws_from_the_posterior() -> None:
-    policies, terms = with_G([0.0, 0.05, 3.0])
+    policies, G = with_G([0.0, 0.05, 3.0])
     rng = np.random.default_rng(0)
-    reach = random_reach(0)
-    draws = [choose(reach, policies, terms, how="sampled", rng=rng).chosen for _ in range(600)]
-    expected = policy_posterior(terms.G)
+    model = random_model(0)
+    draws = [choose(model, policies, G, choice=Sampled(), rng=rng) for _ in range(600)]
+    expected = policy_posterior(G)
     assert np.abs(np.bincount(draws, minlength=3) / 600 - expected).max() < 0.06
 
 
-@pytest.mark.parametrize("how", ["best", "sampled"])
-def test_choice_repeats_with_its_seed(how: str) -> None:
-    policies, terms = with_G([0.0] * 30)
-    reach = random_reach(0)
+@pytest.mark.parametrize("choice", [Best(), Outward(), Sampled()])
+def test_choice_repeats_with_its_seed(choice: Choice) -> None:
+    policies, G = with_G([0.0] * 30)
+    model = random_model(0)
 
     def draws(seed: int) -> list[int]:
         rng = np.random.default_rng(seed)
-        return [choose(reach, policies, terms, how=how, rng=rng).chosen for _ in range(6)]
+        return [choose(model, policies, G, choice=choice, rng=rng) for _ in range(6)]
 
     assert draws(1) == draws(1)
     assert draws(1) != draws(2)
 
 
 def test_plan_goes_where_something_is_to_be_learned() -> None:
-    reach = grid_reach(HALL, visited=HALL[:4], at=(0, 2))
-    made = plan(reach, rng=np.random.default_rng(0))
+    model = grid_model(HALL, visited=HALL[:4], at=(0, 2))
+    made = Planner().decide(model, rng=np.random.default_rng(0))
     assert isinstance(made, Plan)
     assert made.names[:2] == ["right", "right"]
     assert made.action == made.policy[0] == 3
     assert made.action_probability.shape == (5,)
     assert made.action_probability.sum() == pytest.approx(1.0)
     assert made.action_probability.argmax() == 3
-    np.testing.assert_array_equal(made.places, reach.places)
-    np.testing.assert_allclose(made.expected_free_energy.G, evaluate(reach, map_guided(reach)).G)
+    np.testing.assert_array_equal(made.places, model.places)
+    np.testing.assert_allclose(made.expected_free_energy.G, evaluate(model, MapGuided().make(model)).G)
 
 
 def test_plan_goes_to_its_goal_and_stays() -> None:
-    reach = grid_reach(HALL, visited=HALL, at=(0, 3), goal=(0, 1), look_ahead=4)
-    for generator in ("map_guided", "self_avoiding", "l_shaped", "exhaustive"):
-        made = plan(reach, generator=generator, rng=np.random.default_rng(0))
+    model = grid_model(HALL, visited=HALL, at=(0, 3), goal=(0, 1), look_ahead=4)
+    for generator in POLICIES.values():
+        made = Planner(policies=generator()).decide(model, rng=np.random.default_rng(0))
         assert made.names == ["left", "left", "stay", "stay"]
 
 
-def test_plan_takes_any_generator() -> None:
-    only = Policies(np.array([[2, 2]]), cut=7)
-    made = plan(grid_reach(HALL, visited=HALL, at=(0, 3)), generator=lambda reach: only, rng=np.random.default_rng(0))
-    assert (made.action, made.cut, made.probability.tolist()) == (2, 7, [1.0])
+@pytest.mark.parametrize(
+    ("parts", "message"),
+    [
+        ({"policies": MapGuided}, "extends PolicyGenerator"),
+        ({"choice": "best"}, "extends Choice"),
+        ({"terms": ["utility"]}, "extends Term"),
+        ({"terms": []}, "terms are none"),
+        ({"terms": [Utility(), Utility()]}, "terms are utility, utility"),
+    ],
+)
+def test_a_planner_refuses_parts_of_another_kind(parts: dict[str, Any], message: str) -> None:
+    with pytest.raises(CogmapError, match=message):
+        Planner(**parts)
 
 
-def test_unknown_names_list_the_choices() -> None:
-    rng = np.random.default_rng(0)
-    with pytest.raises(CogmapError, match="map_guided, self_avoiding, l_shaped, exhaustive"):
-        plan(random_reach(0), generator="zigzag", rng=rng)
-    with pytest.raises(CogmapError, match="best, sampled"):
-        plan(random_reach(0), choice="worst", rng=rng)
-    policies, terms = with_G([0.0, 1.0])
-    with pytest.raises(CogmapError, match="2 values of G for 1 policies"):
-        choose(random_reach(0), Policies(policies.actions[:1]), terms, rng=rng)
+@pytest.mark.parametrize("slack", [-1.0, np.inf, np.nan])
+def test_outward_refuses_a_slack_that_is_none(slack: float) -> None:
+    with pytest.raises(CogmapError, match="outward: slack"):
+        Outward(slack=slack)
 
 
 @pytest.mark.parametrize(
@@ -155,30 +169,29 @@ def test_unknown_names_list_the_choices() -> None:
         ("belief", np.array([np.nan, 1.0, 0.0, 0.0, 0.0])),
         ("A", np.eye(4)),
         ("A", -np.ones((4, 5))),
-        ("B", np.zeros((5, 5, 5))),
-        ("B", np.full((5, 5, 4), 0.2)),
-        ("collision", np.full((5, 5), 1.5)),
+        ("B", Transitions.of(np.zeros((5, 5, 5)))),
+        ("B", Transitions.of(np.full((5, 5, 4), 0.2))),
+        ("blocked", np.full((5, 5), 1.5)),
         ("collision_cost", np.inf),
         ("log_C", np.array([0.0, -np.inf, 0.0, 0.0])),
         ("multiplicity", np.zeros(4)),
         ("successor", np.full((5, 5), 5)),
         ("successor", np.full((5, 4), 0)),
-        ("promise", np.zeros(4)),
-        ("sight_information", np.zeros((5, 3))),
-        ("position_information", np.zeros((4, 9))),
-        ("transition_information", np.zeros((5, 2))),
+        ("information", {"sight": np.zeros((5, 3))}),
+        ("information", {"position": np.zeros((4, 9))}),
+        ("information", {"transition": np.zeros((5, 2))}),
         ("discount", 0.0),
         ("dropped", 1.0),
-        ("frontier", np.zeros(3)),
-        ("frontier", np.full(5, np.nan)),
+        ("entered", np.zeros(3)),
+        ("position", np.zeros((5, 1))),
     ],
 )
 def test_plan_refuses_tables_that_do_not_fit(field: str, value: object) -> None:
     with pytest.raises(CogmapError, match=field):
-        plan(replace(random_reach(0), **{field: value}), rng=np.random.default_rng(0))
+        Planner().decide(replace(random_model(0), **{field: value}), rng=np.random.default_rng(0))
 
 
 def test_a_preferred_place_counts_as_a_preference() -> None:
-    reach = replace(random_reach(0), log_C=np.zeros(4), log_C_place=np.zeros(5))
-    assert reach.indifferent
-    assert not replace(reach, log_C_place=np.eye(5)[2]).indifferent
+    model = replace(random_model(0), log_C=np.zeros(4), log_C_place=np.zeros(5))
+    assert model.indifferent
+    assert not replace(model, log_C_place=np.eye(5)[2]).indifferent

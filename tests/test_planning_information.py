@@ -7,9 +7,10 @@ from itertools import product
 import numpy as np
 import pytest
 from cogmap.model.errors import CogmapError
-from cogmap.planning import collected_information, dirichlet_information
+from cogmap.planning import Rollout, dirichlet_information
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from local_models import random_model
 from scipy.integrate import quad
 from scipy.special import digamma
 from scipy.stats import beta
@@ -107,21 +108,29 @@ def test_bad_input(alpha: list[float], steps: int, options: dict[str, list[float
         dirichlet_information(alpha, steps, **options)
 
 
+def chain(belief: np.ndarray) -> Rollout:
+    """One policy, with these beliefs `[L, R]` after each of its steps."""
+    steps, places = belief.shape
+    before = np.arange(-1, steps).clip(0)
+    levels = [(t, t + 1) for t in range(1, steps + 1)]
+    model = random_model(0, places=places)
+    return Rollout(model, before, np.zeros(steps + 1, dtype=np.int64), levels, np.vstack([np.zeros(places), belief]))
+
+
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10**6))
-def test_collected_information_is_what_is_expected_of_visits_that_come_or_do_not(seed: int) -> None:
+def test_collected_is_what_is_expected_of_visits_that_come_or_do_not(seed: int) -> None:
     rng = np.random.default_rng(seed)
     steps = int(rng.integers(1, 5))
-    tables = [dirichlet_information(rng.random((3, 4)) + 0.01, steps) for _ in range(2)]
-    q, many = rng.random((6, 3)), rng.integers(1, steps + 1, (6, 3))
-    collected = collected_information(tables, q * many, q)
-    for table, found in zip(tables, collected, strict=True):
-        direct = [sum(q[i, s] * table[s, many[i, s]] for s in range(3)) for i in range(6)]
-        np.testing.assert_allclose(found, direct, atol=1e-12)
+    table = dirichlet_information(rng.random((3, 4)) + 0.01, steps)
+    q, many = rng.random(3), rng.integers(1, steps + 1, 3)
+    rolled = chain(np.where(np.arange(steps)[:, None] < many, q, 0.0))
+    collected = rolled.collected(table)
+    assert collected[-1] == pytest.approx(sum(q[s] * table[s, many[s]] for s in range(3)), abs=1e-12)
+    assert collected[0] == 0.0
 
 
-def test_collected_information_between_integers_beyond_the_table_and_of_nothing() -> None:
+def test_collected_between_integers_beyond_the_table_and_of_nothing() -> None:
     table = np.array([[0.0, 4.0, 6.0]])
-    visits = np.array([[1.0], [1.5], [50.0], [0.0]])
-    reached = np.array([[1.0], [1.0], [1.0], [0.0]])
-    np.testing.assert_allclose(collected_information([table], visits, reached)[0], [4, 5, 6, 0])
+    found = chain(np.array([[1.0], [0.5], [0.0], [1.0], [1.0]])).collected(table)
+    np.testing.assert_allclose(found, [0, 4, 5, 5, 6, 6])

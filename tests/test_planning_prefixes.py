@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from cogmap.model.distinct import distinct
-from cogmap.model.journal import MOST, Journal
-from cogmap.planning.kept import Kept
+from cogmap.planning.local.rows import Rows
 from cogmap.planning.prefixes import prefixes_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -47,7 +45,7 @@ def test_rows_are_worked_out_once_and_again_after_they_are_forgotten(ops: list[t
         asked.extend(rows.tolist())
         return np.array([[truth[row], row] for row in rows.tolist()]), rows * 2
 
-    kept = Kept(compute)
+    kept = Rows(compute)
     known: set[int] = set()
     for step, (op, rows) in enumerate(ops):
         if op != "ask":
@@ -58,44 +56,18 @@ def test_rows_are_worked_out_once_and_again_after_they_are_forgotten(ops: list[t
         truth.update(dict.fromkeys(rows - known, step))
         asked.clear()
         if len(wanted):
-            first, second = kept.rows(wanted)
+            first, second = (column[:-1] for column in kept.columns(wanted))
             assert first.tolist() == [[truth[row], row] for row in sorted(rows)]
             np.testing.assert_array_equal(second, wanted * 2)
-            np.testing.assert_array_equal(kept.row_of(1, wanted), second)
         assert set(asked) == rows - known
         known |= rows
 
 
 def test_rows_that_become_wider_are_worked_out_again() -> None:
     width = 1
-    kept = Kept(lambda rows: (np.repeat(rows[:, None], width, axis=1),))
-    assert kept.rows(np.array([3, 1]))[0].tolist() == [[3], [1]]
+    kept = Rows(lambda rows: (np.repeat(rows[:, None], width, axis=1),))
+    assert kept.column(0, np.array([3, 1])).tolist() == [[3], [1]]
     width = 2
-    assert kept.rows(np.array([1]))[0].tolist() == [[1]]  # nobody said that it had changed
-    assert kept.rows(np.array([1, 7]))[0].tolist() == [[1, 1], [7, 7]]
-    assert kept.rows(np.array([3]))[0].tolist() == [[3, 3]]
-
-
-def test_a_journal_tells_each_reader_what_is_new() -> None:
-    journal = Journal()
-    assert journal.since(-1) == (None, 0)
-    for row in (3, 5, 3):
-        journal.note(row)
-    rows, read = journal.since(0)
-    assert rows == [3, 5, 3]
-    assert journal.since(1)[0] == [5, 3]
-    assert journal.since(read) == ([], read)
-    journal.note(None)
-    assert journal.since(read)[0] is None
-    _, read = journal.since(read)
-    assert journal.since(read)[0] == []
-
-
-@pytest.mark.parametrize("changes", [MOST, 5 * MOST])
-def test_a_journal_that_forgot_says_that_any_row_may_have_changed(changes: int) -> None:
-    journal, (_, read) = Journal(), Journal().since(-1)
-    for row in range(changes):
-        journal.note(row)
-    assert journal.since(read)[0] == (list(range(changes)) if changes <= MOST else None)
-    late = journal.since(read)[1] - MOST
-    assert journal.since(late)[0] == list(range(changes - MOST, changes))
+    assert kept.column(0, np.array([1])).tolist() == [[1]]  # nobody said that it had changed
+    assert kept.column(0, np.array([1, 7])).tolist() == [[1, 1], [7, 7]]
+    assert kept.column(0, np.array([3])).tolist() == [[3, 3]]

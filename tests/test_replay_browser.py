@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from charts import row, torus
 from cogmap.agent import Agent, Settings
-from cogmap.views import Recorder
-from cogmap.views.replay import replay_html
+from cogmap.views import Recorder, replay_html
 from recordings import eventful_walk, tolman_walk
 from walks import GRID
 
@@ -82,15 +82,11 @@ def room(page: Any) -> str:
     return page.locator("#agent").get_attribute("data-room")
 
 
-def test_the_first_picture_comes_soon(open_page: Any, pages: Path) -> None:
+def test_the_first_picture_is_light(open_page: Any, pages: Path) -> None:
     page = open_page(pages / "tolman.html")
-    times: list[float] = []
-    for _ in range(3):  # the machine may be busy with something else
-        page.reload()
-        page.wait_for_selector("#agent")
-        assert page.locator("#window-svg [data-variable]").count() > 0
-        times.append(page.evaluate("performance.getEntriesByType('navigation')[0].domComplete"))
-    assert min(times) < 2000
+    page.wait_for_selector("#agent")
+    assert page.locator("#window-svg [data-variable]").count() > 0
+    assert page.evaluate("document.querySelectorAll('*').length") < 2000
 
 
 def test_the_slider_moves_the_agent(open_page: Any, pages: Path) -> None:
@@ -259,10 +255,10 @@ def test_less_motion_is_respected(open_page: Any, pages: Path) -> None:
 def test_hostile_labels_do_nothing(open_page: Any, tmp_path: Path) -> None:
     labels = ["</script><script>alert(1)</script>", "<img src=x onerror=alert(1)>", "'\"`${1}", "a" * 300]
     agent = Agent(GRID, settings=Settings(look_ahead=2), seed=0)
-    recorder = Recorder({(0, i): label for i, label in enumerate(labels)}, title=labels[1], goals=labels)
+    recorder = Recorder(row(*labels), title=labels[1], goals=labels)
     for i, label in enumerate(labels):
         agent.step({"sight": label, "open": [False, False, False, True, True]})
-        recorder.add(agent, position=(0, i))
+        recorder.add(agent, place=(0, i))
     path = tmp_path / "hostile.html"
     path.write_text(replay_html(recorder.recording()), encoding="utf-8")
     page = open_page(path, viewport=PHONE)
@@ -285,3 +281,40 @@ def test_walks_without_truth_or_in_one_dimension(open_page: Any, tmp_path: Path)
     assert page.locator("#maze").count() == 0
     assert page.locator("#map-svg .place").count() == 2
     assert state(page, "step") == "0"
+
+
+def test_a_walk_on_a_graph(open_page: Any, tmp_path: Path) -> None:
+    chart, recorder = torus(4), Recorder(torus(4), goals=[5])
+    agent, place = Agent(GRID, settings=Settings(look_ahead=2), seed=0), (0, 0)
+    for _ in range(12):
+        action = agent.step({"sight": chart.sights[place], "open": [True] * 5})
+        recorder.add(agent, place=place, closed_rooms=[(2, 2)], closed_doors=[((1, 0), (1, 3))])
+        place = {**chart.successors(place), "stay": place}[list(GRID)[action]]
+    path = tmp_path / "torus.html"
+    path.write_text(replay_html(recorder.recording()), encoding="utf-8")
+    page = open_page(path, viewport=PHONE)
+    assert page.locator("#maze-panel h2").text_content() == "The world, as it is"
+    assert page.locator("#maze-svg .place").count() == 16
+    assert page.locator("#maze-svg .world-way").count() == 32
+    page.keyboard.press("End")
+    assert room(page) != "(0, 0)"
+    assert page.locator("#maze-svg .trail").count() >= 11
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+
+
+def test_labels_of_any_script_fit_their_places(open_page: Any, tmp_path: Path) -> None:
+    labels = ["日本語の部屋", "قاعة الاستقبال", "WWWWWW", "ⵣⴰⵡⴰⵢⵜ", "🏠🏡🏘🏚🛖⛺", "x" * 300]
+    agent, recorder = Agent(GRID, settings=Settings(look_ahead=1), seed=0), Recorder(row(*labels))
+    for i, label in enumerate(labels):
+        agent.step({"sight": label, "open": [False, False, i > 0, i < len(labels) - 1, True]})
+        recorder.add(agent, place=(0, i))
+    path = tmp_path / "scripts.html"
+    path.write_text(replay_html(recorder.recording()), encoding="utf-8")
+    page = open_page(path)
+    page.keyboard.press("End")
+    for texts, shapes in (("#window .variable", "circle, rect"), ("#map g:has(> .place:not(.hollow))", ".place")):
+        for found in page.locator(texts).all():
+            outer = found.locator(shapes).first.bounding_box()
+            for text in found.locator("text:not(.tag):not(.variable-odds)").all():
+                inner = text.bounding_box()
+                assert inner["width"] <= outer["width"], text.text_content()

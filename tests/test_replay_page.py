@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from charts import row, torus
 from cogmap.agent import Agent, Settings
-from cogmap.model.errors import CogmapError
-from cogmap.views.recording import Recorder, Recording
-from cogmap.views.replay import replay_html
+from cogmap.model import CogmapError
+from cogmap.views import Recorder, Recording, replay_html, sight_colour
 from cogmap.worlds import load_world
 from command_line import cogmap
 from recordings import eventful, eventful_walk, recorded, tolman_walk
@@ -86,7 +86,7 @@ def test_only_its_own_script_and_style_may_run(recording: Recording) -> None:
 
 def test_labels_and_titles_are_only_text() -> None:
     agent = Agent(GRID, settings=Settings(look_ahead=2), seed=0)
-    recorder = Recorder({(0, i): label for i, label in enumerate(HOSTILE)}, title=HOSTILE[0] + "&", goals=HOSTILE)
+    recorder = Recorder(row(*HOSTILE), title=HOSTILE[0] + "&", goals=HOSTILE)
     for label in HOSTILE:
         agent.step({"sight": label, "open": [False, False, False, True, True]})
         recorder.add(agent)
@@ -99,8 +99,6 @@ def test_labels_and_titles_are_only_text() -> None:
 
 
 def test_sights_have_the_colours_of_the_plots() -> None:
-    from cogmap.views import sight_colour
-
     data = json.loads(Page(replay_html(recorded(load_world("3x3"), 3))).text("script", 0))
     for text, colour, ink in data["looks"]:
         red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
@@ -119,7 +117,24 @@ def test_a_walk_without_a_maze_and_in_one_dimension() -> None:
     for sight in (0, 1):
         agent.step({"sight": sight, "open": [False, True, True]})
         recorder.add(agent)
-    assert json.loads(Page(replay_html(recorder.recording())).text("script", 0))["maze"] is None
+    assert json.loads(Page(replay_html(recorder.recording())).text("script", 0))["world"] is None
+
+
+def test_a_walk_on_a_graph() -> None:
+    chart, recorder = torus(3), Recorder(torus(3), title="torus")
+    agent, place = Agent(GRID, settings=Settings(look_ahead=2), seed=0), (0, 0)
+    for step in range(5):
+        action = agent.step({"sight": chart.sights[place], "open": [True] * 5})
+        recorder.add(agent, place=place, closed_rooms=[(1, 1)] if step else (), closed_doors=[((0, 0), (0, 2))])
+        place = {**chart.successors(place), "stay": place}[list(GRID)[action]]
+    kept = recorder.recording()
+    assert kept.places[kept.frames[0]["at"]] == (0, 0)
+    assert kept.frames[1]["closed_rooms"] == [kept.places.index((1, 1))]
+    world = json.loads(Page(replay_html(kept)).text("script", 0))["world"]
+    assert (world["rooms"], len(world["places"]), len(world["ways"])) == (False, 9, 18)
+    agent.step({"sight": 0, "open": [True] * 5})
+    with pytest.raises(CogmapError, match=r"\(7, 7\) is no place of 'test'"):
+        recorder.add(agent, place=(7, 7))
 
 
 def test_three_dimensions_cannot_be_drawn() -> None:
@@ -150,7 +165,7 @@ def test_the_command_makes_the_page(name: str, page: str) -> None:
     [
         (["none.json"], "there is no file"),
         (["text.json"], "no recording, or truncated"),
-        (["walk.json", "--out", "walk.json"], "the recording itself"),
+        (["walk.json", "--out", "walk.json"], "the file that is read"),
         (["walk.json", "--out", "missing/page.html"], "cannot write"),
         ([], "Missing argument"),
     ],

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from charts import row
 from cogmap.agent import Agent, Settings
 from cogmap.inference import infer
-from cogmap.model.errors import CogmapError
-from cogmap.model.labels import decode, encode
-from cogmap.views.recording import Recorder, Recording
+from cogmap.model import CogmapError, decode, encode
+from cogmap.views import Recorder, Recording
 from cogmap.worlds import load_world
 from recordings import close_elsewhere, eventful, eventful_walk, kidnaps, outline, probabilities, recorded
 from walks import GRID
@@ -32,7 +32,7 @@ def test_the_map_is_rebuilt_at_every_step() -> None:
     assert any(frame.get("closed_rooms") for frame in kept.frames)
     assert any(not frame["certain"] for frame in kept.frames)
     for truth, picture in zip(truths, kept.maps(), strict=True):
-        found = picture.to_networkx(kept.actions, kept.sights)
+        found = picture.to_networkx()
         assert outline(found) == outline(truth)
         p, q = probabilities(found), probabilities(truth)
         assert max(abs(p[edge] - q[edge]) for edge in q) <= 6e-4
@@ -47,7 +47,7 @@ def test_the_map_is_rebuilt_however_it_grows_and_fades(settings: dict[str, Any])
     events = {**kidnaps(12, 60, (6, 2), (0, 2)), 30: lambda world, _: close_elsewhere(world, (3, 2))}
     kept = recorded(world, 70, events=events, after=lambda agent: truths.append(agent.map.to_networkx()), **settings)
     for truth, picture in zip(truths, kept.maps(), strict=True):
-        found = picture.to_networkx(kept.actions, kept.sights)
+        found = picture.to_networkx()
         assert outline(found) == outline(truth)
         p, q = probabilities(found), probabilities(truth)
         assert max(abs(p[edge] - q[edge]) for edge in q) <= 1e-3
@@ -55,7 +55,9 @@ def test_the_map_is_rebuilt_however_it_grows_and_fades(settings: dict[str, Any])
 
 def test_little_is_written_where_nothing_is_new(recording: Recording) -> None:
     ways = len(json.dumps([frame["map"] for frame in recording.frames]))
-    whole = len(json.dumps(recording.frames[-1]["map"])) + len(recording.frames) * len(recording.actions)
+    whole = len(json.dumps(recording.frames[-1]["map"])) + len(recording.frames) * len(
+        recording.data["motions"]["names"]
+    )
     assert recorded(load_world("3x3"), 40).frames[-1]["map"] == {}
     assert ways < len(recording) * max(whole, 2500)
 
@@ -104,11 +106,11 @@ def test_belief_and_plan_are_those_of_the_agent() -> None:
         assert told["action"] == plan.action == told["policies"][best][0]
         assert told["P"] == sorted(told["P"], reverse=True)
         assert told["P"][best] == pytest.approx(plan.probability[plan.chosen], abs=1e-6)
-        terms = dict(zip(kept.data["terms"], told["terms"][best], strict=True))
+        terms = dict(zip([term["name"] for term in kept.data["terms"]], told["terms"][best], strict=True))
         assert terms == pytest.approx(
             {k: v for k, v in plan.expected_free_energy.row(plan.chosen).items() if k != "G"}, abs=1e-4
         )
-        signs = [1.0 if name == "collision" else -1.0 for name in kept.data["terms"]]
+        signs = [term["sign"] for term in kept.data["terms"]]
         np.testing.assert_allclose(np.array(told["terms"]) @ signs, told["G"], atol=1e-3)
         assert {path[0] for path in told["paths"]} == {belief.place}
 
@@ -142,7 +144,7 @@ def test_any_label_that_json_can_hold() -> None:
     labels = ["word", "</script>", 7, 2.5, None, True, ("a", ("b", 1)), "\u2028"]
     agent, recorder = (
         Agent(GRID, settings=Settings(look_ahead=2), seed=0),
-        Recorder({(0, i): x for i, x in enumerate(labels)}),
+        Recorder(row(*labels)),
     )
     for label in labels:
         agent.step({"sight": label, "open": [False, False, False, True, True]})
@@ -169,12 +171,12 @@ def test_recording_may_begin_late() -> None:
     for step in range(20):
         action = agent.step(observation)
         if step >= 8 and step != 13:
-            recorder.add(agent, position=world.position)
+            recorder.add(agent, place=world.position)
         observation, *_ = world.step(action)
     kept = recorder.recording()
     assert kept.data["origin"] is None
     assert [frame["step"] for frame in kept.frames] == [*range(8, 13), *range(14, 20)]
-    assert outline(list(kept.maps())[-1].to_networkx(kept.actions, kept.sights)) == outline(agent.map.to_networkx())
+    assert outline(list(kept.maps())[-1].to_networkx()) == outline(agent.map.to_networkx())
 
 
 def test_recorders_say_what_they_need() -> None:
@@ -223,7 +225,7 @@ def test_files_that_are_no_recordings(recording: Recording, tmp_path: Path) -> N
     for content in (b"[]", b"3", b'{"format": "cogmap agent"}', b'{"runs": []}'):
         path.write_bytes(content)
         refused(path, "JSON, but no recording")
-    for schema in (0, 2, "1", None):
+    for schema in (0, 3, "1", None):
         path.write_text(json.dumps({**recording.data, "schema": schema}))
         refused(path, "has schema")
 
@@ -235,7 +237,7 @@ def test_files_with_holes_are_damaged(tmp_path: Path) -> None:
     frame = [("frames", 3, name) for name in data["frames"][3] if name not in ("at", "map")]
     parts = [("frames", 3, part, name) for part in ("plan", "window") for name in data["frames"][3][part]]
     for *way, name in [*head, *frame, *parts, ("motions", "stay"), ("motions", "names"), ("settings", "certainty")]:
-        for value in (None, {"x": 1}, [["x"]]):
+        for value in (None, {"x": ["no label"]} if name == "seen" else {"x": 1}, [["x"]]):
             broken = copy.deepcopy(data)
             parent = broken
             for key in way:
@@ -256,7 +258,8 @@ def test_places_that_there_are_not(tmp_path: Path) -> None:
         lambda frame: frame["map"].setdefault("ways", []).append([0, 0, 1, 99, 0.5]),
         lambda frame: frame["map"].setdefault("places", []).append([77, [0, 0], 1, 0, 0.5]),
         lambda frame: frame["map"].__setitem__("size", 50),
-        lambda frame: frame.__setitem__("sight", 99),
+        lambda frame: frame["seen"].__setitem__("sight", ["x"]),
+        lambda frame: frame.__setitem__("at", 99),
     ):
         broken = copy.deepcopy(data)
         spoil(broken["frames"][3])
@@ -273,3 +276,27 @@ def test_files_are_written_whole_or_not_at_all(recording: Recording, tmp_path: P
         Recording({**recording.data, "title": float("nan")}).save(path)
     assert path.read_text() == "before"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_recordings_of_before_are_read(tmp_path: Path) -> None:
+    """A walk in 3x3_alias that schema 1 has: a door closed at step 4, moved at 5, a room closed at 6."""
+    kept = Recording.load(Path(__file__).parent / "saved" / "recording_schema1.json.gz")
+    at = [kept.places[frame["at"]] for frame in kept.frames]
+    assert at == [(2, 1), (2, 2), (1, 2), (0, 2), (0, 1), (0, 0), (1, 0), (2, 0), (1, 0)]
+    assert kept.places[kept.data["origin"] or 0] == at[0]
+    assert [kept.places[place] for place in kept.frames[6]["closed_rooms"]] == [(2, 2)]
+    assert [[kept.places[place] for place in door] for door in kept.frames[4]["closed_doors"]] == [[(2, 1), (2, 2)]]
+    assert [frame["seen"]["sight"] for frame in kept.frames] == [3, 3, 4, 1, 0, 0, 2, 3, 2]
+    chart = load_world("3x3_alias").chart
+    fresh = Recorder(chart)
+    agent = Agent(GRID, seed=0)
+    agent.step({"sight": 3, "open": [True] * 5})
+    fresh.add(agent, place=(2, 1))
+    world = fresh.recording().data["world"]
+    of = {tuple(place[:2]): place[2] for place in world["places"]}
+    assert {tuple(place[:2]): place[2] for place in kept.data["world"]["places"]} == of
+    assert len(kept.data["world"]["ways"]) == len(world["ways"]) == 12
+    plan, signs = kept.frames[-1]["plan"], [term["sign"] for term in kept.data["terms"]]
+    np.testing.assert_allclose(np.array(plan["terms"]) @ signs, plan["G"], atol=1e-3)
+    kept.save(tmp_path / "now.json")
+    assert Recording.load(tmp_path / "now.json") == kept

@@ -3,7 +3,7 @@ from __future__ import annotations
 import json
 
 import pytest
-from cogmap.experiments.executors import workers
+from cogmap.experiments import workers
 from cogmap.experiments.studies.donut import DonutResult, detour, donut_lines, donut_study
 from cogmap.experiments.studies.donut_figures import FRAMES, donut_figures
 from cogmap.experiments.studies.donut_rows import CLOSED, CORNER, DOORS, GOAL_ROOM, MAZE, DonutRow, DonutStep
@@ -99,7 +99,7 @@ def test_frames(result: DonutResult) -> None:
 
 
 def test_who_has_not_explored_is_not_moved(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("cogmap.experiments.studies.donut.default_steps", lambda maze: 1)
+    monkeypatch.setattr("cogmap.experiments.session.default_steps", lambda maze: 1)
     lost = donut_study(agents=1)
     assert lost.rows[0].moves is None
     assert lost.summary()["explored"] == 0

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cogmap.experiments import Cell, Row
 from cogmap.experiments import cells as cells_module
-from cogmap.experiments.cells import Cell, Row
 from cogmap.experiments.studies import exploration, grid, rooms, saving
 from cogmap.experiments.studies.exploration import exploration_lines, exploration_study, exploration_tables
 from cogmap.experiments.studies.exploration_figures import exploration_figures

@@ -11,13 +11,12 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Settings
-from cogmap.experiments.session import Session, explored
+from cogmap.experiments import Session, explored
 from cogmap.experiments.studies.frame import STUDIES, Study, study_named
 from cogmap.experiments.studies.imagined import imagined_paths, room_of
 from cogmap.experiments.studies.saving import check_folder, save_study, study_report
 from cogmap.model import CogmapError
-from cogmap.views.belief_plot import TRUE, plot_belief
-from cogmap.views.policy_plot import PALEST, plot_policies
+from cogmap.views import VERMILION, plot_belief, plot_policies
 from cogmap.worlds import MAZES
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgba
@@ -108,7 +107,7 @@ def test_a_folder_that_appears_as_a_file_meanwhile(stub: Study, tmp_path: Path) 
 
 @pytest.fixture(scope="module")
 def session() -> Session:
-    session = explored("test", MAZES["3x3"], settings=Settings(look_ahead=4), seed=1, most=100)
+    session = explored("test", MAZES["3x3"], 1, settings=Settings(look_ahead=4), max_steps=100)
     session.agent.prefer({8: 3.0})
     session.agent.step(session.world.observe())
     return session
@@ -140,9 +139,9 @@ def test_imagined_paths_are_those_of_the_world(session: Session) -> None:
 def test_a_divided_belief_has_paths_from_every_place(session: Session) -> None:
     plan = session.agent.plan
     inside = np.flatnonzero(plan.places >= 0)[:2]
-    belief = np.zeros_like(plan.reach.belief)
+    belief = np.zeros_like(plan.model.belief)
     belief[inside] = 0.25, 0.75
-    divided = replace(plan, reach=replace(plan.reach, belief=belief))
+    divided = replace(plan, model=replace(plan.model, belief=belief))
     mass = {}
     for path in imagined_paths(divided, session.agent.map, session.start):
         mass[path.rooms[0]] = mass.get(path.rooms[0], 0.0) + path.probability
@@ -157,7 +156,7 @@ def test_a_divided_belief_has_paths_from_every_place(session: Session) -> None:
 def test_bars_are_as_high_as_places_are_probable() -> None:
     ax = plot_belief({"a": 0.25, "b": 0.75}, true="b", threshold=0.7, title="here")
     assert [bar.get_height() for bar in ax.patches] == [0.25, 0.75]  # type: ignore[attr-defined]
-    assert [bar.get_facecolor() == to_rgba(TRUE) for bar in ax.patches] == [False, True]
+    assert [bar.get_facecolor() == to_rgba(VERMILION) for bar in ax.patches] == [False, True]
     assert [label.get_text() for label in ax.get_xticklabels()] == ["a", "▲ b"]
     assert ax.lines[0].get_ydata()[0] == 0.7  # type: ignore[index]
 
@@ -169,7 +168,7 @@ def test_ways_are_as_dark_as_they_are_probable() -> None:
     lines = [tuple(map(tuple, segment)) for segment in shaded.get_segments()]
     assert lines == [((1.0, 0.0), (2.0, 0.0)), ((0.0, 0.0), (1.0, 0.0))]  # x, y; there and back counts once
     greys = [colour[0] for colour in np.asarray(shaded.get_color())]
-    assert greys == pytest.approx([PALEST * 0.25, 0.0])
+    assert greys == pytest.approx([0.85 * 0.25, 0.0])
     assert plot_policies(paths, ax=ax) is ax
 
 

@@ -6,8 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from cogmap.agent import Settings
-from cogmap.experiments import NavigateRun, navigate
-from cogmap.experiments.executors import workers
+from cogmap.experiments import NavigateRun, navigate, workers
 from cogmap.experiments.studies.goals import (
     GoalRun,
     GoalsResult,

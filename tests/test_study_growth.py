@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from cogmap.agent import Settings
-from cogmap.experiments.exploring import explore
+from cogmap.experiments import explore
 from cogmap.experiments.studies import growth
 from cogmap.experiments.studies.grid import CAP, Grid
 from cogmap.experiments.studies.growth import GROWN, growth_study, growth_tables

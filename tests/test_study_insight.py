@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 from cogmap.baselines.habit import HabitAgent
-from cogmap.experiments.executors import workers
+from cogmap.experiments import workers
 from cogmap.experiments.studies.insight import MOST, insight_lines, insight_study
 from cogmap.experiments.studies.insight_figures import insight_figures
 from cogmap.experiments.studies.insight_rows import RATS, InsightResult, InsightRow, route_3_first

@@ -121,7 +121,7 @@ def test_figures_show_all_and_clip_nothing(result: LocalisationResult) -> None:
 
 
 def test_who_has_not_explored_is_not_moved(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("cogmap.experiments.studies.localisation.default_steps", lambda maze: 1)
+    monkeypatch.setattr("cogmap.experiments.session.default_steps", lambda maze: 1)
     result = localisation_study(agents=1)
     assert result.rows[0].trials == ()
     assert json.loads(json.dumps(result.to_dict(), allow_nan=False))["summary"]["explored"] == 0

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from cogmap.experiments.executors import workers
+from cogmap.experiments import workers
 from cogmap.experiments.studies.martinet import _apart, martinet_lines, martinet_study  # pyright: ignore[reportPrivateUsage]
 from cogmap.experiments.studies.martinet_figures import martinet_figures
 from cogmap.experiments.studies.martinet_rows import BLOCKED, FREE, PROBES, MartinetResult, MartinetRow, MartinetRun

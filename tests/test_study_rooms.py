@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
-from cogmap.experiments.exploring import explore
+from cogmap.experiments import explore
 from cogmap.experiments.studies import grid, rooms
 from cogmap.experiments.studies.grid import Grid
 from cogmap.experiments.studies.grid_rows import VISIT

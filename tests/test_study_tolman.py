@@ -4,7 +4,7 @@ import json
 import math
 
 import pytest
-from cogmap.experiments.executors import workers
+from cogmap.experiments import workers
 from cogmap.experiments.studies.shares import total_variation, wilson
 from cogmap.experiments.studies.tolman import KNOB_VALUES, TolmanResult, tolman_lines, tolman_study
 from cogmap.experiments.studies.tolman_figures import tolman_figures

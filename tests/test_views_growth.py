@@ -4,43 +4,37 @@ import os
 from pathlib import Path
 
 import pytest
-from cogmap.agent import Agent
+from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError
-from cogmap.model.growth_log import GrowthEvent
 from cogmap.views import GrowthFrames
-from cogmap.views.growth_news import news_of
-from cogmap.worlds import GRID, MAZES
+from cogmap.worlds import GRID, MAZES, load_world
 from matplotlib.patches import Circle
 from PIL import Image
-from strolls import half_way, small
+from strolls import half_way, small, stroll
 
 
 def short() -> GrowthFrames:
-    frames = GrowthFrames()
-    frames.frames.extend(small().frames.frames[:3])
-    return frames
+    return stroll("3x3_alias", (1, 1), 3).frames
 
 
 def test_frames_are_the_map_as_it_was() -> None:
-    frames, agent = half_way().frames.frames, half_way().agent
-    assert [frame.step for frame in frames] == list(range(len(agent.trace)))
-    grown = 1  # it knows that it is somewhere before it sees anything
-    for frame, record in zip(frames, agent.trace, strict=True):
+    frames, agent = half_way().frames, half_way().agent
+    assert [frame.step for frame in frames.frames] == list(range(len(agent.trace)))
+    grown, visited = 1, list[int]()  # it knows that it is somewhere before it sees anything
+    for frame, picture, record in zip(frames.frames, frames.maps(), agent.trace, strict=True):
         grown += sum(event.kind == "place" for event in record.grown)
-        assert len(frame.picture.places) == grown
+        assert len(picture.places) == grown
         assert frame.place == next(iter(record.places))
-    visited = [sum(place.visited for place in frame.picture.places.values()) for frame in frames]
+        visited.append(picture.visited)
     assert visited == sorted(visited)
     assert visited[0] == 1
     assert visited[-1] == int(agent.map.visited.sum())
 
 
 def test_what_did_not_change_is_kept_once() -> None:
-    frames = half_way().frames.frames
-    before, after = frames[-2].picture.places, frames[-1].picture.places
-    same = [place for place in before if before[place] is after[place]]
-    assert [place for place in before if before[place] == after[place]] == same
-    assert len(same) > len(before) / 2
+    frames = small().frames
+    told = [place for frame in frames.frames for place, *_ in frame.delta.get("places", ())]
+    assert len(told) < len(frames) * len(small().agent.map.places) / 2
 
 
 def test_all_frames_have_the_room_of_the_last() -> None:
@@ -49,12 +43,13 @@ def test_all_frames_have_the_room_of_the_last() -> None:
     assert (first.get_xlim(), first.get_ylim()) == (last.get_xlim(), last.get_ylim())
     assert first.get_title() == "first"
     assert last.get_title().startswith(f"step {len(frames) - 1}: ")
+    places = [[*picture.places] for index, picture in enumerate(frames.maps()) if index in (0, len(frames) - 1)]
     circles = [sum(isinstance(patch, Circle) for patch in ax.patches) for ax in (first, last)]
-    assert circles == [len(frames.frames[i].picture.places) + 1 for i in (0, -1)]  # and the ring of the agent
+    assert circles == [len(picture) + 1 for picture in places]  # and the ring of the agent
 
 
 def test_frames_over_the_maze() -> None:
-    frames = GrowthFrames(sights=MAZES["3x3"].sights, start=(1, 1))
+    frames = GrowthFrames(chart=MAZES["3x3"], start=(1, 1))
     agent = Agent(GRID, seed=0)
     agent.step({"sight": 4, "open": [True] * 5})
     frames.add(agent)
@@ -63,15 +58,27 @@ def test_frames_over_the_maze() -> None:
 
 
 def test_news_are_told() -> None:
-    events = [
-        GrowthEvent(0, "time", 0),
-        GrowthEvent(0, "sight", 0, "red"),
-        GrowthEvent(0, "place", 0),
-        GrowthEvent(0, "place", 1),
-        GrowthEvent(0, "retract", 3),
-    ]
-    assert news_of(events) == "2 imagined, 3 taken back, new sight red"
-    assert news_of(events[:1]) == ""
+    agent, frames = Agent(GRID, seed=0), GrowthFrames()
+    for sight, doors in (("red", [True, False, False, True]), ("red", [True, False, False, True]), (7, [False] * 4)):
+        agent.step({"sight": sight, "open": [*doors, True]})
+        frames.add(agent)
+    assert frames.frames[0].news == "3 imagined, new sight red"
+    assert "new sight 7" in frames.frames[2].news
+    assert frames.plot(0).get_title() == "step 0: 3 places, 1 visited\n3 imagined, new sight red"
+
+
+def test_places_that_were_taken_back_are_told() -> None:
+    world, frames = load_world("4x4_alias"), GrowthFrames()
+    agent = Agent(world.motions, settings=Settings(look_ahead=3), seed=0)
+    observation, _ = world.reset(seed=0)
+    for step in range(60):
+        action = agent.step(observation)
+        frames.add(agent)
+        observation = world.displace([(1, 2), (3, 0)][step // 6 % 2]) if step % 6 == 5 else world.step(action)[0]
+    assert any(record.retracted is not None for record in agent.trace)
+    for frame, record in zip(frames.frames, agent.trace, strict=True):
+        gone = sum(event.index for event in record.grown if event.kind == "retract")
+        assert (f"{gone} taken back" in frame.news) == (gone > 0)
 
 
 def test_a_gif_has_every_frame(tmp_path: Path) -> None:

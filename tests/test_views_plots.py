@@ -6,20 +6,28 @@ from io import BytesIO
 
 import numpy as np
 import pytest
+from charts import row
 from cogmap.agent import Agent
 from cogmap.experiments import walk
 from cogmap.model import CogmapError
 from cogmap.views import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    Theme,
+    contrast,
     explore_figure,
+    ink_on,
     plot_expected_free_energy,
     plot_free_energy,
     plot_map,
-    plot_maze,
+    plot_world,
     sight_colour,
 )
-from cogmap.views.colours import BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION, against, contrast, ink_on
-from cogmap.views.maze_plot import LANE, lanes
-from cogmap.worlds import GRID, MAZES, label_colour, parse_maze
+from cogmap.worlds import GRID, MAZES, Maze, label_colour, parse_maze
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib import pyplot as plt
@@ -30,7 +38,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 from pictures import THEMES
 
-MAZE = MAZES["tolman"].sights
+MAZE = MAZES["tolman"]
 OKABE = (BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION)
 
 
@@ -64,16 +72,20 @@ def test_sights_of_the_first_maze_are_colours_of_their_own() -> None:
 def test_contrast_is_that_of_the_standard() -> None:
     assert contrast((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)) == pytest.approx(21.0)
     assert contrast(to_rgb("#767676"), (1.0, 1.0, 1.0)) == pytest.approx(4.54, abs=0.01)  # the classic border case
-    assert all(contrast(against(colour, paper), paper) >= 3.0 for colour in OKABE for paper in ((0, 0, 0), (1, 1, 1)))
+    themes = (Theme((1, 1, 1), (0, 0, 0)), Theme((0, 0, 0), (1, 1, 1)))
+    assert all(contrast(theme.line(colour), theme.paper) >= 3.0 for colour in OKABE for theme in themes)
 
 
 @pytest.mark.parametrize("theme", THEMES)
 def test_the_same_maze_has_the_same_colours(theme: str) -> None:
     with plt.style.context(theme):
-        one, other = (plot_maze(dict(sights)) for sights in (MAZE, reversed(MAZE.items())))
+        turned = Maze("turned", dict(reversed(MAZE.sights.items())))
+        one, other = plot_world(MAZE), plot_world(turned)
     floors = [{patch.get_xy(): patch.get_facecolor()[:3] for patch in rooms_of(ax)} for ax in (one, other)]
     assert floors[0] == floors[1]
-    assert all(floors[0][column - 0.5, row - 0.5] == sight_colour(label) for (row, column), label in MAZE.items())
+    assert all(
+        floors[0][column - 0.5, row - 0.5] == sight_colour(label) for (row, column), label in MAZE.sights.items()
+    )
 
 
 def test_any_label_has_a_colour() -> None:
@@ -82,20 +94,29 @@ def test_any_label_has_a_colour() -> None:
     assert colours[3] == sight_colour(3)
 
 
-def test_lanes_keep_to_the_right() -> None:
-    there_and_back = lanes(np.array([[0.0, 0.0], [0.0, 1.0], [0.0, 0.0]]))
-    assert there_and_back[0] == pytest.approx([LANE, 0.0])  # to the right, below the middle
-    assert there_and_back[-1] == pytest.approx([-LANE, 0.0])  # back, above it
-    corner = lanes(np.array([[1.0, 0.0], [0.0, 0.0], [0.0, 1.0]]))  # up, then right
-    assert corner[1] == pytest.approx([LANE, LANE])
+def line_of(ax: Axes) -> np.ndarray:
+    """The points of a path that was drawn, as rows and columns."""
+    segments = [part for part in ax.collections if isinstance(part, LineCollection)][-1].get_segments()
+    return np.array([segments[0][0], *(segment[1] for segment in segments)])[:, ::-1]
+
+
+def test_paths_keep_to_the_right() -> None:
+    there_and_back = line_of(plot_world(row(1, 2), path=[(0, 0), (0, 1), (0, 0)]))
+    lane = there_and_back[0][0]
+    assert 0.05 < lane < 0.2
+    assert there_and_back[0] == pytest.approx([lane, 0.0])  # to the right, below the middle
+    assert there_and_back[-1] == pytest.approx([-lane, 0.0])  # back, above it
+    corner = line_of(plot_world(MAZES["3x3"], path=[(1, 0), (0, 0), (0, 1)]))  # up, then right
+    assert corner[1] == pytest.approx([lane, lane])
 
 
 def test_standing_still_is_no_line() -> None:
-    assert lanes(np.array([[2.0, 2.0], [2.0, 2.0]])) == pytest.approx(np.array([[2.0, 2.0]]))
+    ax = plot_world(MAZES["3x3"], path=[(2, 2), (2, 2)])
+    assert not [part for part in ax.collections if isinstance(part, LineCollection)][-1].get_segments()
 
 
 def test_the_path_goes_from_black_to_white() -> None:
-    ax = plot_maze(MAZES["3x3"].sights, path=[(0, 0), (0, 1), (0, 2), (1, 2)])
+    ax = plot_world(MAZES["3x3"], path=[(0, 0), (0, 1), (0, 2), (1, 2)])
     line = [part for part in ax.collections if isinstance(part, LineCollection)][-1]
     shades = np.asarray(line.get_colors())[:, 0]
     assert shades[0] == 0.0
@@ -105,7 +126,7 @@ def test_the_path_goes_from_black_to_white() -> None:
 
 @pytest.mark.parametrize("floor", range(24))
 def test_a_path_of_any_shade_shows_on_any_floor(floor: int) -> None:
-    ax = plot_maze({(0, 0): floor, (0, 1): floor}, path=[(0, 0), (0, 1)])
+    ax = plot_world(row(floor, floor), path=[(0, 0), (0, 1)])
     white, black, _ = (part for part in ax.collections if isinstance(part, LineCollection))
     rims = [tuple(np.asarray(part.get_colors())[0, :3]) for part in (white, black)]
     assert white.get_linewidths()[0] > black.get_linewidths()[0]
@@ -115,7 +136,7 @@ def test_a_path_of_any_shade_shows_on_any_floor(floor: int) -> None:
 
 
 def test_where_somebody_was_put_the_path_is_dashed() -> None:
-    ax = plot_maze(MAZES["4x4"].sights, path=[(0, 0), (0, 1), (3, 3), (3, 2)])
+    ax = plot_world(MAZES["4x4"], path=[(0, 0), (0, 1), (3, 3), (3, 2)])
     (jump,) = ax.lines
     assert jump.get_linestyle() == "--"
     walked = [part for part in ax.collections if isinstance(part, LineCollection)][-1].get_segments()
@@ -151,7 +172,7 @@ def test_energies_are_those_of_the_trace(agent: Agent) -> None:
 
 def test_plots_go_where_they_are_told() -> None:
     ax = Figure().add_subplot()
-    assert plot_maze(MAZES["3x3"].sights, ax=ax, title="here") is ax
+    assert plot_world(MAZES["3x3"], ax=ax, title="here") is ax
     assert ax.get_title() == "here"
 
 
@@ -160,7 +181,7 @@ def test_no_label_is_clipped(layout: str) -> None:
     maze = parse_maze(layout, name="small")
     done = walk(maze, seed=0)
     assert isinstance(done.walker, Agent)
-    figure = explore_figure(maze.sights, done.path, map_=done.walker.map, trace=done.walker.trace, title="$x")
+    figure = explore_figure(maze, done.path, map_=done.walker.map, trace=done.walker.trace, title="$x")
     figure.savefig(BytesIO())
     page = figure.bbox
     for ax in figure.axes:
@@ -173,14 +194,14 @@ def test_no_label_is_clipped(layout: str) -> None:
 
 
 def test_a_baseline_has_the_maze_alone() -> None:
-    assert len(explore_figure(MAZES["3x3"].sights, [(0, 0)]).axes) == 1
+    assert len(explore_figure(MAZES["3x3"], [(0, 0)]).axes) == 1
 
 
 def test_bad_input() -> None:
-    with pytest.raises(CogmapError, match="no rooms"):
-        plot_maze({})
-    with pytest.raises(CogmapError, match="no room"):
-        plot_maze({(0, 0): 1}, path=[(0, 0), (0, 1)])
+    with pytest.raises(CogmapError, match=r"\(0, 1\) is no place of 'test'"):
+        plot_world(row(1), path=[(0, 0), (0, 1)])
+    with pytest.raises(CogmapError, match=r"\(5, 5\) is no place"):
+        plot_world(row(1), closed=[(5, 5)])
     with pytest.raises(CogmapError, match="trace is empty"):
         plot_free_energy([])
     with pytest.raises(CogmapError, match="trace is empty"):

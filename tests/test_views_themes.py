@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
+from charts import row
 from cogmap.views import (
+    contrast,
     explore_figure,
     plot_belief,
     plot_belief_bars,
@@ -15,15 +17,13 @@ from cogmap.views import (
     plot_factor_graph,
     plot_free_energy,
     plot_map,
-    plot_maze,
     plot_policies,
     plot_surprise,
     plot_terms,
+    plot_world,
     policy_paths,
+    theme_of,
 )
-from cogmap.views.colours import contrast
-from cogmap.views.fitted_text import FittedText
-from cogmap.views.theme import theme_of
 from cogmap.worlds import MAZES
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -33,7 +33,7 @@ from matplotlib.figure import Figure
 from pictures import THEMES, assert_readable, ground, rendered, texts
 from strolls import Stroll, aliased, half_way, small, split
 
-MAZE, ALIAS = MAZES["tolman"].sights, MAZES["4x4_alias"].sights
+MAZE, ALIAS = MAZES["tolman"], MAZES["4x4_alias"]
 STROLLS: dict[str, Callable[[], Stroll]] = {"half": half_way, "split": split}
 
 PLOTS: dict[str, Callable[[Stroll], Axes | Figure]] = {
@@ -65,15 +65,15 @@ def test_text_is_whole_and_apart_and_stands_out(plot: str, who: str, theme: str)
 
 def _on_a_floor(zorder: float, text: object) -> bool:
     """Whether the text stands on a patch of its own: the label of a place, or of an observation."""
-    return isinstance(text, FittedText) and zorder == 3
+    return hasattr(text, "whole") and zorder == 3
 
 
 @pytest.mark.parametrize("theme", THEMES)
 def test_mazes_are_readable(theme: str) -> None:
     with plt.style.context(theme):
-        for sights, walk in ((MAZE, half_way()), (ALIAS, aliased())):
-            assert_readable(plot_maze(sights, path=walk.path, title="maze"))
-        over = plot_belief_map(split().agent.belief, split().agent.map, sights=MAZE, start=(6, 2), title="belief")
+        for maze, walk in ((MAZE, half_way()), (ALIAS, aliased())):
+            assert_readable(plot_world(maze, path=walk.path, title="maze"))
+        over = plot_belief_map(split().agent.belief, split().agent.map, chart=MAZE, start=(6, 2), title="belief")
         assert_readable(over)
         walk = half_way()
         assert_readable(explore_figure(MAZE, walk.path, map_=walk.agent.map, trace=walk.agent.trace, title="all"))
@@ -107,17 +107,15 @@ def test_the_ground_decides_whatever_the_style() -> None:
 @pytest.mark.parametrize("size", [(2.0, 2.0), (6.0, 5.0), (12.0, 9.0)])
 @pytest.mark.filterwarnings("ignore:Glyph")
 def test_labels_fit_their_rooms_whatever_the_size(size: tuple[float, float]) -> None:
-    sights = {(0, 0): "verylongword", (0, 1): "日本", (1, 0): 7, (1, 1): "$x_y$", (1, 2): "wide" * 12}
-    ax = plot_maze(sights)
+    ax = plot_world(row("verylongword", "日本", 7, "$x_y$", "wide" * 12))
     figure = rendered(ax)
     figure.set_size_inches(*size)  # after it was drawn
     rendered(figure)
     for text in ax.texts:
-        assert isinstance(text, FittedText)
         box = text.get_window_extent()
         room = ax.transData.transform([text.get_position(), (text.get_position()[0] + 0.8, 0.0)])
         assert not text.get_text() or box.x1 <= room[1][0] + 1.0
-        assert text.whole.startswith(text.get_text().removesuffix("…"))
+        assert text.whole.startswith(text.get_text().removesuffix("…"))  # type: ignore[attr-defined]
     assert_readable(figure)
 
 

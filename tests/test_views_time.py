@@ -1,15 +1,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from cogmap.agent import StepRecord
 from cogmap.model import CogmapError
 from cogmap.views import plot_certainty, plot_free_energy, plot_surprise, plot_terms
-from cogmap.views.terms import TERMS
-from cogmap.views.terms_plot import LONGEST, best_policies, policy_name
 from matplotlib.axes import Axes
 from matplotlib.container import BarContainer
 from strolls import half_way, small, split
@@ -56,13 +53,14 @@ def test_steps_at_which_it_was_moved_or_changed_its_mind_are_marked(draw) -> Non
 def test_terms_are_those_of_the_plan_and_add_up_to_G() -> None:
     plan = half_way().agent.plan
     ax = plot_terms(plan, most=6)
-    shown, G = best_policies(plan, 6), plan.expected_free_energy.G
-    assert G[shown[0]] == pytest.approx(G.min())
+    G = plan.expected_free_energy.G
+    shown = sorted(range(len(G)), key=lambda i: (round(float(G[i]), 9), i != plan.chosen))[:6]
     bars = {part.get_label(): np.array([bar.get_width() for bar in part]) for part in ax.containers}  # type: ignore[union-attr]
-    for key, term in TERMS.items():
-        values = term.sign * getattr(plan.expected_free_energy, key)[shown]
-        if term.name in bars:
-            assert bars[term.name] == pytest.approx(values)
+    names = {1.0: "", -1.0: "−"}
+    for term in plan.expected_free_energy.terms:
+        values, label = term.sign * plan.expected_free_energy[term.name][shown], names[term.sign] + term.label
+        if label in bars:
+            assert bars[label] == pytest.approx(values)
         else:
             assert values == pytest.approx(0.0, abs=1e-6)
     assert sum(bars.values()) == pytest.approx(G[shown], abs=1e-5)
@@ -82,12 +80,11 @@ def test_the_chosen_policy_is_marked_even_where_others_are_better() -> None:
 
 
 def test_policies_have_short_names() -> None:
-    motions = SimpleNamespace(names=["up", "down", "stay"])
-    plan = SimpleNamespace(reach=SimpleNamespace(motions=motions), policies=np.array([[0, 0, 1, 2], [0, 1, 0, 1]]))
-    assert policy_name(plan, 0) == "2 up, down, stay"  # type: ignore[arg-type]
-    plan.policies = np.array([[0, 1] * 12])
-    assert policy_name(plan, 0).endswith("…")  # type: ignore[arg-type]
-    assert len(policy_name(plan, 0)) <= LONGEST  # type: ignore[arg-type]
+    plan = half_way().agent.plan
+    for policy, name in (([0, 0, 1, 4], "2 up, down, stay"), ([0, 1] * 12, "up, down, up, down, up, down, up, …")):
+        every = replace(plan, policies=np.tile(policy, (len(plan.policies), 1)))
+        labels = {label.get_text().removeprefix("▶ ") for label in plot_terms(every).get_yticklabels()}
+        assert labels == {name[:33] + "…" if len(name) > 34 else name}
 
 
 def test_bad_input() -> None:

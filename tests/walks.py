@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from cogmap.agent import Agent, Settings
-from cogmap.model import CognitiveMap
-from cogmap.model.map_state import map_arrays
-from cogmap.planning.outlook import Doors, Outlook
+from cogmap.model import CognitiveMap, map_state
+from cogmap.planning import LocalCache
 from cogmap.worlds import MazeEnv
 
 GRID = {"up": (-1, 0), "down": (1, 0), "left": (0, -1), "right": (0, 1), "stay": (0, 0)}
 UP, DOWN, LEFT, RIGHT, STAY = range(5)
+
+KEPT: WeakKeyDictionary[Agent, LocalCache] = WeakKeyDictionary()
+"""A cache of each agent, asked after every step."""
 
 Observe = Callable[[dict[str, Any]], dict[str, Any]]
 
@@ -34,13 +37,15 @@ def walk(
     """
     rng = np.random.default_rng(seed)
     observation, _ = world.reset(seed=seed)
+    taken: dict[str, Any] = {}
     for k in range(steps):
         if displace_every and k % displace_every == displace_every - 1:
             rooms = [room for room in world.maze.rooms if room not in world.closed_rooms]
             observation = world.displace(rooms[int(rng.integers(len(rooms)))])
-        action = agent.step(observe(observation))
+        action = agent.step({**observe(observation), **taken})
         if steer:
-            agent._action = action = int(rng.integers(len(world.motions.names)))
+            action = int(rng.integers(len(world.motions.names)))
+            taken = {"taken": action}
         yield action
         observation, *_ = world.step(action)
 
@@ -67,18 +72,17 @@ def assert_map_is_sound(map_: CognitiveMap) -> None:
     assert set(map_.visited_places.tolist()) == set(np.flatnonzero(map_.visited).tolist())
 
 
-def assert_outlook_is_fresh(agent: Agent) -> None:
+def assert_cache_is_fresh(agent: Agent) -> None:
     """What plans have kept of each place is what a plan that has kept nothing would work out."""
-    places, (kept, fresh) = np.arange(len(agent.map.places)), (agent._outlook, Outlook(agent.map, agent._outlook.steps))
-    for outlook in (kept, fresh):
-        outlook.refresh()
-    (doors, of_doors), (new_doors, new_of_doors) = kept.doors(places), fresh.doors(places)
-    for name in Doors.__slots__:
-        np.testing.assert_array_equal(getattr(doors, name), getattr(new_doors, name), err_msg=name)
-    np.testing.assert_array_equal(of_doors, new_of_doors)
-    for old, new in zip(kept.sights(places), fresh.sights(places), strict=True):
-        np.testing.assert_array_equal(old, new)
-    np.testing.assert_array_equal(kept.ways(places), new_doors.likely)
+    visits = agent.settings.look_ahead
+    kept, fresh = KEPT.setdefault(agent, LocalCache(agent.map, visits)), LocalCache(agent.map, visits)
+    places = np.arange(len(agent.map.places))
+    for cache in (kept, fresh):
+        cache.refresh()
+    rows, new = kept.rows(places), fresh.rows(places)
+    for name in type(rows).__slots__:
+        np.testing.assert_array_equal(getattr(rows, name), getattr(new, name), err_msg=name)
+    np.testing.assert_array_equal(kept.likely(places), new.likely[:-1])
 
 
 def assert_agent_is_sound(agent: Agent) -> None:
@@ -91,9 +95,9 @@ def assert_agent_is_sound(agent: Agent) -> None:
     assert belief.evidence <= 1e-9
     assert -1e-9 <= belief.moved <= 1.0 + 1e-9
     assert -1e-9 <= belief.dropped <= 1.0
-    assert (belief.walks[2] >= 0.0).all()
-    assert_outlook_is_fresh(agent)
-    assert belief.walks[2].sum() <= 1.0 + 1e-9
+    assert (belief.pairwise[2] >= 0.0).all()
+    assert_cache_is_fresh(agent)
+    assert belief.pairwise[2].sum() <= 1.0 + 1e-9
     numbers = [belief.evidence, belief.complexity, belief.accuracy, *agent.trace[-1].G.values()]
     assert np.isfinite(numbers).all()
     assert 0 <= plan.action < len(agent.map.motions)
@@ -105,7 +109,7 @@ def assert_same_map(one: CognitiveMap, other: CognitiveMap) -> None:
     assert [type(label) for label in one.sights] == [type(label) for label in other.sights]
     assert list(one.positions) == list(other.positions)
     assert one.growth == other.growth
-    left, right = map_arrays(one), map_arrays(other)
+    left, right = map_state(one)[1], map_state(other)[1]
     assert left.keys() == right.keys()
     for name, values in left.items():
         np.testing.assert_array_equal(values, right[name], err_msg=name)
@@ -114,8 +118,8 @@ def assert_same_map(one: CognitiveMap, other: CognitiveMap) -> None:
 def assert_same_belief(one: Agent, other: Agent) -> None:
     """Two agents believe exactly the same of where they are."""
     for a, b in zip(
-        (*_parts(one.belief.message), *one.belief.walks),
-        (*_parts(other.belief.message), *other.belief.walks),
+        (*_parts(one.belief.message), *one.belief.pairwise),
+        (*_parts(other.belief.message), *other.belief.pairwise),
         strict=True,
     ):
         np.testing.assert_array_equal(a, b)

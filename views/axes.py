@@ -1,11 +1,11 @@
-"""What the plots share: axes without global state, grids of cells, text that fits."""
+"""What the plots share: axes without global state, cells of a grid, text that fits, legends."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
-from ..model.errors import CogmapError
+from ..model import CogmapError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,23 +15,25 @@ Cell = tuple[float, float]
 """Row and column."""
 
 
-def axes_or_new(ax: Axes | None, *, size: tuple[float, float] = (6.0, 5.0)) -> Axes:
-    """`ax`, or the axes of a new figure of `size` inches that belongs to no window."""
-    if ax is not None:
-        return ax
+class Where(TypedDict, total=False):
+    """Where a plot goes."""
+
+    title: str | None  # above it
+    ax: Axes | None  # to draw on; new ones unless given
+
+
+def axes_or_new(*, size: tuple[float, float] = (6.0, 5.0), title: str | None = None, ax: Axes | None = None) -> Axes:
+    """`ax`, or the axes of a new figure of `size` inches that belongs to no window, with the title."""
     from matplotlib.figure import Figure
 
-    return Figure(figsize=size, layout="constrained").add_subplot()
+    ax = Figure(figsize=size, layout="constrained").add_subplot() if ax is None else ax
+    if title is not None:
+        ax.set_title(title)
+    return ax
 
 
-def as_grid(ax: Axes, cells: Iterable[Cell], *, margin: float = 0.15) -> None:
-    """Square cells, rows downwards, no ticks, room for exactly these cells and those already there."""
-    rows, columns = zip(*cells, strict=True)
-    half = 0.5 + margin
-    left, right, low, high = min(columns) - half, max(columns) + half, max(rows) + half, min(rows) - half
-    if is_grid(ax):
-        (was_left, was_right), (was_low, was_high) = ax.get_xlim(), ax.get_ylim()
-        left, right, low, high = min(left, was_left), max(right, was_right), max(low, was_low), min(high, was_high)
+def without_ticks(ax: Axes, left: float, right: float, low: float, high: float) -> None:
+    """Axes of a picture rather than of numbers: units as wide as high, these limits, nothing else to be seen."""
     ax.set_xlim(left, right)
     ax.set_ylim(low, high)
     ax.set_aspect("equal")
@@ -40,9 +42,15 @@ def as_grid(ax: Axes, cells: Iterable[Cell], *, margin: float = 0.15) -> None:
     ax.set_axis_off()
 
 
-def is_grid(ax: Axes) -> bool:
-    """Whether the axes hold a grid of cells that something was drawn on."""
-    return not ax.axison and ax.has_data()
+def as_grid(ax: Axes, cells: Iterable[Cell], *, margin: float = 0.15) -> None:
+    """Square cells, rows downwards, room for exactly these cells and those already there."""
+    rows, columns = zip(*cells, strict=True)
+    half = 0.5 + margin
+    left, right, low, high = min(columns) - half, max(columns) + half, max(rows) + half, min(rows) - half
+    if not ax.axison and ax.has_data():  # a grid that something was drawn on
+        (was_left, was_right), (was_low, was_high) = ax.get_xlim(), ax.get_ylim()
+        left, right, low, high = min(left, was_left), max(right, was_right), max(low, was_low), min(high, was_high)
+    without_ticks(ax, left, right, low, high)
 
 
 def cell_points(ax: Axes) -> float:
@@ -55,22 +63,12 @@ def cell_points(ax: Axes) -> float:
     return 72 * min(width * box.width / abs(right - left), height * box.height / abs(top - bottom))
 
 
-def write_in(
-    ax: Axes,
-    x: float,
-    y: float,
-    text: str,
-    *,
-    box: tuple[float, float],
-    largest: float = 12.0,
-    cut: bool = True,
-    **style: Any,
-) -> Text:
-    """Text as large as its box (width and height in data units) allows, `largest` points at most; see `FittedText`."""
+def write_in(ax: Axes, x: float, y: float, text: str, *, box: tuple[float, float], **style: Any) -> Text:
+    """Text as large as its box (width and height in data units) allows, centred unless told; see `FittedText`."""
     from .fitted_text import FittedText
 
-    centred = {"ha": "center", "va": "center", "clip_on": False}
-    written = FittedText(x, y, text, box=box, largest=largest, cut=cut, **{**centred, **style})
+    look: dict[str, Any] = {"ha": "center", "va": "center", "largest": 12.0, "cut": True, **style}
+    written = FittedText(x, y, text, box=box, clip_on=False, **look)
     written.set_transform(ax.transData)
     ax.add_artist(written)
     written.set_clip_path(None)
@@ -95,8 +93,6 @@ def flat(position: Sequence[float]) -> Cell:
     Raises:
         CogmapError: it has another number of dimensions.
     """
-    if len(position) == 1:
-        return 0.0, float(position[0])
-    if len(position) == 2:
-        return float(position[0]), float(position[1])
-    raise CogmapError(f"plot: position {tuple(position)} has {len(position)} dimensions; only 1 or 2 can be drawn")
+    if len(position) not in (1, 2):
+        raise CogmapError(f"plot: position {tuple(position)} has {len(position)} dimensions; only 1 or 2 can be drawn")
+    return float(position[0]) if len(position) == 2 else 0.0, float(position[-1])

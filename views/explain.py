@@ -1,185 +1,15 @@
-"""Why the agent did what it did: its last choice in words and numbers."""
+"""The explanation of the last choice of an agent."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 
 from ..agent import Agent
-from ..model.errors import CogmapError
-from ..model.labels import encode, plain
-from ..planning import Plan, Policies, evaluate
-from ..planning.choice import SLACK, TIE, contenders
-from .explain_text import explanation_html, explanation_text
-
-SIGNS = {
-    "collision": 1.0,
-    "state_information": -1.0,
-    "sight_information": -1.0,
-    "position_information": -1.0,
-    "transition_information": -1.0,
-    "utility": -1.0,
-}
-"""G is the sum of the terms with these signs (eqs. 5 and 8)."""
-
-
-@dataclass(frozen=True, slots=True)
-class BelievedPlace:
-    """A place that holds belief.
-
-    Attributes:
-        place: its number.
-        position: relative to the start, or None.
-        sight: label of its most probable sight; None where it was never visited.
-        probability: Q(s).
-    """
-
-    place: int
-    position: tuple[int, ...] | None
-    sight: Hashable
-    probability: float
-
-
-@dataclass(frozen=True, slots=True)
-class WeighedPolicy:
-    """One of the policies of a plan.
-
-    Attributes:
-        index: its row in `plan.policies`.
-        actions: by name.
-        terms: of its expected free energy, and their sum under `G`, in nats: `plan.expected_free_energy.row(index)`.
-        probability: P(policy).
-        place: the place where it most probably ends; None for somewhere never imagined.
-        place_probability: how probable that is.
-    """
-
-    index: int
-    actions: tuple[str, ...]
-    terms: dict[str, float]
-    probability: float
-    place: int | None
-    place_probability: float
-
-    @property
-    def contributions(self) -> dict[str, float]:
-        """The terms with the sign they have in G: they add up to it."""
-        return {name: sign * self.terms[name] for name, sign in SIGNS.items()}
-
-
-@dataclass(frozen=True, slots=True)
-class Rejected:
-    """A good policy that was not chosen, and what spoke against it.
-
-    Attributes:
-        policy: the policy.
-        worse: for each term, how much it adds to G beyond what it adds for the chosen policy, in nats.
-        term: the term in which it lost most; None where it is as good as the chosen one, or better.
-        verdict: `lot` (as good; the lot fell on another), `moves` (as good, but it moves more), `outward` (nearly as
-            good or better, but it does not lead as far out), `drawn` (as good or better; policies are drawn from
-            P(policy)), `later` (it lost most in a term that it gets as much of, only later: a longer way), or `less`
-            (it lost most in that term).
-    """
-
-    policy: WeighedPolicy
-    worse: dict[str, float]
-    term: str | None
-    verdict: str
-
-    @property
-    def difference(self) -> float:
-        """G beyond that of the chosen policy, in nats."""
-        return sum(self.worse.values())
-
-
-@dataclass(frozen=True, slots=True)
-class FirstAction:
-    """What the plan made of one action as the first.
-
-    Attributes:
-        action: its name.
-        blocked: P(blocked) in the places that hold belief, as sensed.
-        policies: how many of the policies begin with it.
-        probability: the sum of their P(policy).
-        best: the least of their G, in nats; None where there are none.
-    """
-
-    action: str
-    blocked: float
-    policies: int
-    probability: float
-    best: float | None
-
-
-@dataclass(frozen=True, slots=True)
-class Explanation:
-    """The last choice of an agent; `str` and `text` tell it in words.
-
-    Attributes:
-        step: the time step of the choice.
-        belief: the most probable places.
-        certainty: Q of the first of them.
-        doubt: probability that the belief went astray at an earlier step.
-        considered: number of policies.
-        length: their number of steps.
-        cut: prefixes that the bound on the search left out.
-        generator: the policy generator.
-        choice: `outward`, `best` or `sampled`.
-        precision: γ of P(policy).
-        chosen: the policy chosen.
-        equals: policies that were as good, this one included: among them the lot was drawn (with `sampled`, none was).
-        best: the policies of the least G, in its order.
-        rejected: those of them that were not chosen, and the best of those that were not as good.
-        actions: what was made of each action as the first.
-        sights: preferred sights, log preferences in nats, before `goal_weight`.
-        places: preferred places, likewise.
-        goal_weight: weight of the preferences.
-        collision_cost: what a collision costs, in nats.
-    """
-
-    step: int
-    belief: tuple[BelievedPlace, ...]
-    certainty: float
-    doubt: float
-    considered: int
-    length: int
-    cut: int
-    generator: str
-    choice: str
-    precision: float
-    chosen: WeighedPolicy
-    equals: int
-    best: tuple[WeighedPolicy, ...]
-    rejected: tuple[Rejected, ...]
-    actions: tuple[FirstAction, ...]
-    sights: tuple[tuple[Hashable, float], ...]
-    places: tuple[tuple[int, float], ...]
-    goal_weight: float
-    collision_cost: float
-
-    @property
-    def text(self) -> str:
-        """The explanation as plain text."""
-        return explanation_text(self)
-
-    def __str__(self) -> str:
-        return self.text
-
-    def _repr_html_(self) -> str:
-        return explanation_html(self)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The explanation as plain JSON values.
-
-        Raises:
-            CogmapError: a label cannot be written as JSON.
-        """
-        values = asdict(self)
-        values["sights"] = [[_json(label), value] for label, value in self.sights]
-        values["belief"] = [{**asdict(place), "sight": _json(place.sight)} for place in self.belief]
-        return values
+from ..model import CogmapError
+from ..planning import TIE, Plan, Policies, Term, evaluate
+from .explanation import BelievedPlace, Explanation, FirstAction, Rejected, WeighedPolicy
 
 
 def explain(agent: Agent, *, most: int = 5) -> Explanation:
@@ -194,28 +24,30 @@ def explain(agent: Agent, *, most: int = 5) -> Explanation:
     """
     if most < 1:
         raise CogmapError(f"explain: most is {most}; give 1 or more policies to tell of")
-    plan, belief, settings, wishes = agent.plan, agent.belief, agent.settings, agent.wishes
+    plan, belief, settings, wishes = agent.plan, agent.belief, agent.settings, agent.preferences
     G = plan.expected_free_energy.G
-    ranked = [int(policy) for policy in np.argsort(G, kind="stable")[:most]]
-    equals = set(contenders(plan.reach, plan.policies, G, how=settings.choice).tolist())
-    lesser = [int(policy) for policy in np.argsort(G, kind="stable") if int(policy) not in equals][:most]
-    told = [policy for policy in dict.fromkeys([*ranked, *lesser]) if policy != plan.chosen]
+    order = np.argsort(G, kind="stable").tolist()
+    equals = set(plan.choice.contenders(plan.model, plan.policies, G).tolist())
+    lesser = [policy for policy in order if policy not in equals][:most]
+    others = [policy for policy in dict.fromkeys([*order[:most], *lesser]) if policy != plan.chosen]
     return Explanation(
         step=agent.steps - 1,
+        terms=plan.expected_free_energy.terms,
         belief=tuple(_believed(agent, place, q) for place, q in list(belief.places.items())[:most]),
         certainty=belief.certainty,
         doubt=belief.doubt,
         considered=len(plan.policies),
         length=plan.policies.shape[1],
         cut=plan.cut,
-        generator=settings.policies,
-        choice=settings.choice,
+        generator=plan.generator.name,
+        choice=plan.choice.name,
+        how=plan.choice.how,
         precision=settings.precision,
         chosen=_weighed(plan, plan.chosen),
-        equals=len(equals) if settings.choice != "sampled" else 1,
-        best=tuple(_weighed(plan, policy) for policy in ranked),
-        rejected=_rejected(plan, told, equals, settings.choice),
-        actions=tuple(_first(plan, action) for action in range(len(plan.reach.motions))),
+        equals=len(equals) if plan.choice.by_lot else 1,
+        best=tuple(_weighed(plan, policy) for policy in order[:most]),
+        rejected=_rejected(plan, others) if others else (),
+        actions=tuple(_first(plan, action) for action in range(len(plan.model.motions))),
         sights=tuple(wishes.sights.items()),
         places=tuple(wishes.places.items()),
         goal_weight=settings.goal_weight,
@@ -232,62 +64,57 @@ def _believed(agent: Agent, place: int, probability: float) -> BelievedPlace:
 
 
 def _weighed(plan: Plan, policy: int) -> WeighedPolicy:
-    reach, actions = plan.reach, plan.policies[policy].tolist()
-    q = reach.belief
+    model, actions = plan.model, plan.policies[policy].tolist()
+    q, row = model.belief, plan.expected_free_energy.row(policy)
     for action in actions:
-        q = reach.B[:, :, action] @ q
-    place = int(reach.places[q.argmax()])
+        q = model.B.predicted(q[None], np.zeros(1, dtype=np.int64), np.array([action]))[0]
+    place = int(model.places[q.argmax()])
     return WeighedPolicy(
         index=policy,
-        actions=tuple(reach.motions.names[action] for action in actions),
-        terms=plan.expected_free_energy.row(policy),
+        actions=tuple(model.motions.names[action] for action in actions),
+        terms=row,
         probability=float(plan.probability[policy]),
         place=None if place < 0 else place,
         place_probability=float(q.max()),
+        contributions={term.name: term.sign * row[term.name] for term in plan.expected_free_energy.terms},
     )
 
 
-def _rejected(plan: Plan, policies: list[int], equals: set[int], choice: str) -> tuple[Rejected, ...]:
-    if not policies:
-        return ()
-    chosen = plan.expected_free_energy.row(plan.chosen)
-    later = evaluate(replace(plan.reach, discount=1.0), Policies(plan.policies[[plan.chosen, *policies]]))
+def _rejected(plan: Plan, policies: list[int]) -> tuple[Rejected, ...]:
+    energy, chosen = plan.expected_free_energy, plan.chosen
+    undiscounted = replace(plan.model, discount=1.0)
+    in_full = evaluate(undiscounted, Policies(plan.policies[[chosen, *policies]]), energy.terms)
     found: list[Rejected] = []
     for at, policy in enumerate(policies, start=1):
-        terms = plan.expected_free_energy.row(policy)
-        worse = {name: sign * (terms[name] - chosen[name]) for name, sign in SIGNS.items()}
-        term = max(worse, key=lambda name: worse[name])
-        verdict = _tied(plan, policy, equals, choice)
-        if verdict is None:
-            undiscounted = SIGNS[term] * float(np.diff(getattr(later, term)[[0, at]])[0])
-            verdict = "later" if undiscounted <= TIE < worse[term] else "less"
-        found.append(Rejected(_weighed(plan, policy), worse, term if verdict in ("less", "later") else None, verdict))
+        gains = {term.name: energy[term.name][policy] - energy[term.name][chosen] for term in energy.terms}
+        worse = {term.name: float(term.sign * gains[term.name]) for term in energy.terms}
+        lost = max(energy.terms, key=lambda term: worse[term.name])
+        later = lost.sign * float(np.diff(in_full[lost.name][[0, at]])[0]) <= TIE < worse[lost.name]
+        weighed = _weighed(plan, policy)
+        verdict = plan.choice.passed_over(plan.model, plan.policies, energy.G, chosen, policy)
+        if verdict is not None:
+            found.append(Rejected(weighed, worse, None, verdict.name, verdict.words))
+        else:
+            words = f"{sum(worse.values()):.3f} nats worse, most of all {_loss(lost, worse[lost.name], later=later)}"
+            found.append(Rejected(weighed, worse, lost.name, "later" if later else "less", words))
     return tuple(found)
 
 
-def _tied(plan: Plan, policy: int, equals: set[int], choice: str) -> str | None:
-    """Why a policy that is no worse than the chosen one was not taken; None where it is worse."""
-    G = plan.expected_free_energy.G
-    if choice == "sampled":
-        return "drawn" if G[policy] - G[plan.chosen] <= TIE else None
-    if policy in equals:
-        return "lot"
-    if choice == "outward" and plan.reach.indifferent and G[policy] <= G.min() + SLACK:
-        return "outward" if plan.reach.frontier.max(initial=-1.0) >= 0.0 else None
-    return "moves" if G[policy] - G.min() <= TIE else None
+def _loss(term: Term, nats: float, *, later: bool) -> str:
+    if term.sign > 0.0:
+        return f"by its {term.meaning} ({nats:.3f} more)"
+    if later:
+        return f"in {term.meaning}: it gets as much, but later, a longer way ({nats:.3f} less for it)"
+    return f"in {term.meaning} ({nats:.3f} less)"
 
 
 def _first(plan: Plan, action: int) -> FirstAction:
     begins = plan.policies[:, 0] == action
     G = plan.expected_free_energy.G[begins]
     return FirstAction(
-        action=plan.reach.motions.names[action],
-        blocked=float(plan.reach.belief @ plan.reach.collision[:, action]),
+        action=plan.model.motions.names[action],
+        blocked=float(plan.model.belief @ plan.model.blocked[:, action]),
         policies=int(begins.sum()),
         probability=float(plan.probability[begins].sum()),
         best=float(G.min()) if len(G) else None,
     )
-
-
-def _json(label: Hashable) -> Any:
-    return encode(plain(label), where="explain")

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
-from ..agent import StepRecord
 from ..model import CognitiveMap
-from .energy_plot import plot_expected_free_energy, plot_free_energy
+from ..worlds import Chart
 from .map_plot import plot_map
-from .maze_plot import plot_maze
+from .time_plots import Trace, plot_expected_free_energy, plot_free_energy
+from .world_plot import plot_world, world_picture
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -18,19 +18,14 @@ WIDTH = 5.5  # of a plot, inches
 
 
 def explore_figure(
-    sights: Mapping[tuple[int, int], Hashable],
-    path: Sequence[Sequence[int]],
-    *,
-    map_: CognitiveMap | None = None,
-    trace: Sequence[StepRecord] = (),
-    title: str | None = None,
+    chart: Chart, path: Sequence[Any], *, map_: CognitiveMap | None = None, trace: Trace = (), title: str | None = None
 ) -> Figure:
-    """The maze with the path, the map learned, F and G over time.
+    """The world with the path, the map learned, F and G over time.
 
     Args:
-        sights: label of each room, by (row, column).
-        path: the rooms walked through, in order.
-        map_: what was learned; without it the maze alone is shown.
+        chart: the true map: `world.chart`, or a maze.
+        path: the places walked through, in order.
+        map_: what was learned; without it the world alone is shown.
         trace: the agent's records; without them the lower half is left out.
         title: above everything.
 
@@ -40,17 +35,18 @@ def explore_figure(
     from matplotlib.figure import Figure
 
     across = 1 if map_ is None else 2
-    rows, columns = (max(part) - min(part) + 1 for part in zip(*sights, strict=True))
+    cells = world_picture(chart).cells.values()
+    rows, columns = (max(part) - min(part) + 1 for part in zip(*cells, strict=True))
     above = min(max(WIDTH * rows / columns, 2.0), 6.5) + 0.4
     heights = [above, 4.4] if trace else [above]
     figure = Figure(figsize=(WIDTH * across, sum(heights) + 0.3), layout="constrained")
     if title is not None:
         figure.suptitle(title, parse_math=False)
     grid = figure.add_gridspec(len(heights), across, height_ratios=heights)
-    plot_maze(sights, path=path, title="path, from black to white", ax=figure.add_subplot(grid[0, 0]))
+    plot_world(chart, path=path, title="path, from black to white", ax=figure.add_subplot(grid[0, 0]))
     if map_ is not None:
-        name = "map learned" if map_.visited.all() else "map learned (hollow: imagined)"
-        plot_map(map_, title=name, ax=figure.add_subplot(grid[0, 1]))
+        hollow = "" if map_.visited.all() else " (hollow: imagined)"
+        plot_map(map_, title=f"map learned{hollow}", ax=figure.add_subplot(grid[0, 1]))
     if trace:
         plot_free_energy(trace, title="free energy and certainty", ax=figure.add_subplot(grid[1, 0]))
     if trace and map_ is not None:

@@ -27,8 +27,7 @@ class FittedText(Text):
         self.set_in_layout(False)  # it lies within the axes, and its size follows from theirs
         self.whole = text
         self._box, self._largest, self._cut = box, largest, cut
-        self._measured: dict[str, tuple[float, float]] = {}
-        self._fitted: tuple[float, ...] | None = None
+        self._fitted: tuple[float, float] | None = None
 
     def draw(self, renderer: Any) -> None:
         """Draw it at the size that fits now."""
@@ -50,31 +49,19 @@ class FittedText(Text):
             return
         self._fitted = box
         size = min(self._size(renderer, self.whole, box, figure.dpi), self._largest)
-        if size >= SMALLEST:
-            self._write(self.whole, size)
-            return
-        longest = max(len(line) for line in self.whole.split("\n")) if self._cut and box[1] >= SMALLEST else 0
-        for length in range(min(longest - 1, int(longest * size / SMALLEST) + 1), 0, -1):
-            text = "\n".join(_cut(line, length) for line in self.whole.split("\n"))
-            if self._size(renderer, text, box, figure.dpi) >= SMALLEST:
-                self._write(text, SMALLEST)
-                return
-        self._write("", SMALLEST)
-
-    def _write(self, text: str, size: float) -> None:
+        lines = self.whole.split("\n")
+        longest = max(map(len, lines)) if self._cut and box[1] >= SMALLEST else 0
+        lengths = range(min(longest - 1, int(longest * size / SMALLEST) + 1), 0, -1) if size < SMALLEST else ()
+        cuts = ("\n".join(line if len(line) <= length else f"{line[:length]}…" for line in lines) for length in lengths)
+        fits = (text for text in cuts if self._size(renderer, text, box, figure.dpi) >= SMALLEST)
+        text = self.whole if size >= SMALLEST else next(fits, "")
         self.set_text(text)
-        self.set_fontsize(size)
+        self.set_fontsize(max(size, SMALLEST))
 
     def _size(self, renderer: Any, text: str, box: tuple[float, float], dpi: float) -> float:
         """Points at which `text` would fill the box."""
-        if text not in self._measured:
-            self._write(text, _TRIAL)
-            extent = super().get_window_extent(renderer)
-            scale = SPARE * 72 / dpi / _TRIAL
-            self._measured[text] = (max(scale * extent.width, 1e-9), max(scale * extent.height, 1e-9))
-        width, height = self._measured[text]
-        return min(box[0] / width, box[1] / height)
-
-
-def _cut(line: str, length: int) -> str:
-    return line if len(line) <= length else f"{line[:length]}…"
+        self.set_text(text)
+        self.set_fontsize(_TRIAL)
+        extent = super().get_window_extent(renderer)
+        scale = SPARE * 72 / dpi / _TRIAL
+        return min(box[0] / max(scale * extent.width, 1e-9), box[1] / max(scale * extent.height, 1e-9))

@@ -8,15 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..model.factor_graph import FactorGraph
-from ..model.factors import Factor
-from ..model.variables import Variable
+from ..model import Factor, FactorGraph, Variable
+from .layout import Point, spread
 
-Point = tuple[float, float]
-
-ABOVE = ("p", "s")
-"""Rows of the cognitive map from the top; other names follow in the order they were declared."""
-
+ABOVE = ("p", "s")  # rows of the cognitive map from the top; others follow in the order they were declared
 BESIDE = 0.2  # observations of one step stand this far from its column
 DROP = 0.62  # from one row of observations to the next
 TOUCHING = 0.12  # factors nearer than this are moved apart
@@ -24,104 +19,83 @@ TOUCHING = 0.12  # factors nearer than this are moved apart
 
 @dataclass(frozen=True, slots=True)
 class GraphLayout:
-    """Coordinates, x to the right and y upwards; things that do not touch are about a unit apart.
+    """Coordinates, x to the right and y upwards; things that do not touch are about a unit apart."""
 
-    Attributes:
-        variables: by name.
-        factors: by label.
-        columns: x of each time step; empty where no variable has a time.
-    """
-
-    variables: Mapping[str, Point]
-    factors: Mapping[str, Point]
-    columns: Mapping[int, float]
+    variables: Mapping[str, Point]  # by name
+    factors: Mapping[str, Point]  # by label
+    columns: Mapping[int, float]  # x of each time step; empty where no variable has a time
 
 
 def layout_of(graph: FactorGraph, variables: Sequence[Variable], factors: Sequence[Factor]) -> GraphLayout:
     """The layout of a part of a graph: factors over `variables` only."""
-    if any(variable.time is not None for variable in variables):
-        return _in_time(graph, variables, factors)
-    from .graph_spread import spread
-
-    return spread(variables, factors)
-
-
-def _in_time(graph: FactorGraph, variables: Sequence[Variable], factors: Sequence[Factor]) -> GraphLayout:
-    columns = {time: float(time) for time in sorted({v.time for v in variables if v.time is not None})}
-    columns = {time: float(x) for x, time in enumerate(columns)}
-    switches = _switches(graph, variables, factors)
-    rows, at_switch = _rows(graph, variables, switches)
-    points: dict[str, Point] = {}
-    for variable in variables:
-        if variable.time is None:
-            continue
-        x, row = columns[variable.time], rows[stem(variable)]
-        if variable.name in switches:
-            points[variable.name] = (x + switches[variable.name], at_switch)
-        elif graph.is_observed(variable):
-            points[variable.name] = (x + _aside(graph, variables, variable), row)
-        else:
-            points[variable.name] = (x, row)
-    points |= _timeless(variables, factors, points, above=max([*rows.values(), at_switch]) + 1.0)
+    times = sorted({variable.time for variable in variables if variable.time is not None})
+    if not times:
+        names = [variable.name for variable in variables]
+        points = spread(names, ((factor.label, variable.name) for factor in factors for variable in factor.scope))
+        return GraphLayout({name: points.pop(name) for name in names}, points, {})
+    columns = {time: float(x) for x, time in enumerate(times)}
+    points = _timed(graph, [variable for variable in variables if variable.time is not None], factors, columns)
+    points |= _timeless(variables, factors, points)
     return GraphLayout(points, _between(factors, points), columns)
 
 
-def stem(variable: Variable) -> str:
+def _stem(variable: Variable) -> str:
     """The name without the number of its time step: variables with the same stem stand in a row."""
-    name = variable.name
-    return re.sub(rf"[_\W]*{abs(variable.time)}[)\]]?$", "", name) or name if variable.time is not None else name
+    return re.sub(rf"[_\W]*{abs(variable.time or 0)}[)\]]?$", "", variable.name) or variable.name
+
+
+def _timed(
+    graph: FactorGraph, variables: Sequence[Variable], factors: Sequence[Factor], columns: Mapping[int, float]
+) -> dict[str, Point]:
+    """Rows of what is latent, and what is observed below; what decides on transitions between the first two rows."""
+    switches = _switches(graph, variables, factors)
+    observed = {v.name for v in variables if graph.is_observed(v)}
+    latent = dict.fromkeys(_stem(v) for v in variables if v.name not in observed and v.name not in switches)
+    below = dict.fromkeys(_stem(v) for v in variables if v.name in observed and _stem(v) not in latent)
+    names = [*(name for name in ABOVE if name in latent), *(name for name in latent if name not in ABOVE)]
+    rows = {name: -float(i) for i, name in enumerate(names)}
+    rows |= {name: -float(len(names) - 1) - 0.95 - DROP * i for i, name in enumerate(below)}
+    points: dict[str, Point] = {}
+    for variable in variables:
+        name, x = variable.name, columns[variable.time or 0]
+        beside = [v.name for v in variables if v.time == variable.time and v.name in observed]
+        if name in switches:
+            points[name] = (x + switches[name], -0.5 if len(names) > 1 else 0.8)
+        elif name in beside and len(beside) > 1:  # so that none hides the way to another
+            points[name] = (
+                x + np.linspace(-BESIDE, BESIDE, len(beside)).tolist()[beside.index(name)],
+                rows[_stem(variable)],
+            )
+        else:
+            points[name] = (x, rows[_stem(variable)])
+    return points
 
 
 def _switches(graph: FactorGraph, variables: Sequence[Variable], factors: Sequence[Factor]) -> dict[str, float]:
     """Latent variables that only take part in transitions of others, such as `moved`, and how far they stand aside."""
     found: dict[str, float] = {}
     for variable in variables:
-        if variable.time is None or graph.is_observed(variable):
-            continue
         scopes = [factor.scope for factor in factors if variable in factor.scope and len(factor.scope) > 1]
-        times = [
-            {other.time for other in scope if other is not variable and other.time is not None} for scope in scopes
-        ]
-        lasting = any(other is not variable and stem(other) == stem(variable) for scope in scopes for other in scope)
-        if scopes and not lasting and all(len(among) > 1 and variable.time in among for among in times):
-            found[variable.name] = -0.5 if variable.time == max(times[0]) else 0.5
+        others = [[other for other in scope if other is not variable and other.time is not None] for scope in scopes]
+        times = [{other.time for other in scope} for scope in others]
+        lasting = any(_stem(other) == _stem(variable) for scope in others for other in scope)
+        deciding = all(len(among) > 1 and variable.time in among for among in times)
+        if scopes and deciding and not lasting and not graph.is_observed(variable):
+            found[variable.name] = -0.5 if variable.time == max(time or 0 for time in times[0]) else 0.5
     return found
 
 
-def _rows(
-    graph: FactorGraph, variables: Sequence[Variable], switches: Mapping[str, float]
-) -> tuple[dict[str, float], float]:
-    """Height of each row by stem, and that of the switches: between the first two rows of latent variables."""
-    timed = [variable for variable in variables if variable.time is not None]
-    latent = dict.fromkeys(stem(v) for v in timed if not graph.is_observed(v) and v.name not in switches)
-    observed = [name for name in dict.fromkeys(stem(v) for v in timed if graph.is_observed(v)) if name not in latent]
-    names = [name for name in ABOVE if name in latent] + [name for name in latent if name not in ABOVE]
-    rows = {name: -float(i) for i, name in enumerate(names)}
-    bottom = -float(len(names) - 1)
-    rows |= {name: bottom - 0.95 - DROP * i for i, name in enumerate(observed)}
-    at_switch = -0.5 if len(names) > 1 else 0.8
-    return {**{stem(v): at_switch for v in timed if v.name in switches}, **rows}, at_switch if switches else 0.0
-
-
-def _aside(graph: FactorGraph, variables: Sequence[Variable], variable: Variable) -> float:
-    """How far an observation stands beside its column, so that none hides the way to another."""
-    others = [v.name for v in variables if v.time == variable.time and graph.is_observed(v)]
-    if len(others) < 2:
-        return 0.0
-    return float(np.linspace(-BESIDE, BESIDE, len(others))[others.index(variable.name)])
-
-
 def _timeless(
-    variables: Sequence[Variable], factors: Sequence[Factor], points: Mapping[str, Point], *, above: float
+    variables: Sequence[Variable], factors: Sequence[Factor], points: Mapping[str, Point]
 ) -> dict[str, Point]:
     """Variables without a time stand in a row of their own above those they have to do with."""
-    found: dict[str, Point] = {}
     wanted: list[tuple[float, str]] = []
     for variable in variables:
         if variable.time is None:
-            near = [v.name for f in factors if variable in f.scope for v in f.scope if v.name in points]
-            wanted.append((float(np.mean([points[name][0] for name in near])) if near else 0.0, variable.name))
-    free = -np.inf
+            near = [points[v.name][0] for f in factors if variable in f.scope for v in f.scope if v.name in points]
+            wanted.append((float(np.mean(near)) if near else 0.0, variable.name))
+    found: dict[str, Point] = {}
+    free, above = -np.inf, max(y for _, y in points.values()) + 1.0
     for x, name in sorted(wanted):
         found[name] = (max(x, free), above)
         free = found[name][0] + 1.0
@@ -132,15 +106,10 @@ def _between(factors: Sequence[Factor], points: Mapping[str, Point]) -> dict[str
     """A factor of one variable stands beside it, one of several between those of its first two."""
     found: dict[str, Point] = {}
     for factor in factors:
-        ends = [points[variable.name] for variable in factor.scope]
-        (x, y), *others = ends
-        spot = ((x + others[0][0]) / 2, (y + others[0][1]) / 2) if others else (x + _side(ends[0], points), y)
+        (x, y), *others = (points[variable.name] for variable in factor.scope)
+        aside = 0.34 if x % 1.0 else -0.34  # to the left of a column, to the right of a variable between two
+        spot = ((x + others[0][0]) / 2, (y + others[0][1]) / 2) if others else (x + aside, y)
         while any(abs(spot[0] - x) + abs(spot[1] - y) < TOUCHING for x, y in found.values()):
             spot = (spot[0] + 0.17, spot[1] + 0.17)
         found[factor.label] = spot
     return found
-
-
-def _side(point: Point, points: Mapping[str, Point]) -> float:
-    """To the left of a column, to the right of a variable between two."""
-    return 0.34 if point[0] % 1.0 else -0.34

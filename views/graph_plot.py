@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from ..model.errors import CogmapError
-from ..model.factor_graph import FactorGraph
-from ..model.factors import Factor
-from ..model.variables import Variable
-from .axes import axes_or_new, write_in
-from .colours import SKY, ink_on, mixed
-from .graph_layout import GraphLayout, Point, layout_of
-from .theme import Theme, theme_of
+from ..model import CogmapError, Factor, FactorGraph, Variable
+from .axes import Where, axes_or_new, without_ticks, write_in
+from .graph_layout import layout_of
+from .layout import Point
+from .theme import SKY, ink_on, mixed, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,18 +22,10 @@ INCHES = 1.15  # a unit is wide, in a new figure
 WIDEST = 22.0  # inches of a new figure
 CLEAR = 60.0  # degrees that a label keeps from the lines, if it can
 
-_SIDES: tuple[tuple[Point, str, str], ...] = (
-    ((0.0, -1.0), "center", "top"),
-    ((0.0, 1.0), "center", "bottom"),
-    ((1.0, 0.0), "left", "center"),
-    ((-1.0, 0.0), "right", "center"),
-)
-"""Sides of a factor where its label may stand, and how it is aligned there."""
+_SIDES = ((0, -1), (0, 1), (1, 0), (-1, 0))  # of a factor where its label may stand: right and up
 
 
-def plot_factor_graph(
-    graph: FactorGraph, *, last: int | None = None, title: str | None = None, ax: Axes | None = None
-) -> Axes:
+def plot_factor_graph(graph: FactorGraph, *, last: int | None = None, **where: Unpack[Where]) -> Axes:
     """Variables as circles, filled where they are observed, and factors as squares between them.
 
     Where variables have a time there is a column for each step, a row for each kind of latent variable, and the
@@ -46,36 +35,34 @@ def plot_factor_graph(
     Args:
         graph: an agent's `graph`, or any other.
         last: only the last steps, this many; factors that reach beyond are left out.
-        title: above the plot.
-        ax: axes to draw on; new ones, wide enough for all columns, unless given.
 
     Raises:
         CogmapError: the graph has no variables, or `last` is below 1.
     """
+    from matplotlib.collections import LineCollection
+
     variables, factors, cut = _part(graph, last)
     layout = layout_of(graph, variables, factors)
-    points = [*layout.variables.values(), *layout.factors.values()]
-    (low_x, high_x), (low_y, high_y) = ((min(part), max(part)) for part in zip(*points, strict=True))
-    below = 0.75 if layout.columns else 0.35
-    limits = (low_x - 0.45, high_x + 0.45, low_y - below, high_y + 0.4)
-    ax = axes_or_new(ax, size=_size(limits))
-    ax.set_xlim(*limits[:2])
-    ax.set_ylim(*limits[2:])
-    ax.set_aspect("equal")
-    ax.set_xticks([])
-    ax.set_yticks([])
-    ax.set_axis_off()
+    spots, in_time = layout.variables, bool(layout.columns)
+    (low_x, high_x), (low_y, high_y) = (
+        (min(part), max(part)) for part in zip(*spots.values(), *layout.factors.values(), strict=True)
+    )
+    limits = (low_x - 0.45, high_x + 0.45, low_y - (0.75 if in_time else 0.35), high_y + 0.4)
+    width, height = limits[1] - limits[0], limits[3] - limits[2]
+    inches = min(INCHES, WIDEST / max(width, height))
+    ax = axes_or_new(size=(max(inches * width, 3.0), max(inches * height, 2.0) + 0.3), **where)
+    without_ticks(ax, *limits)
     theme = theme_of(ax)
-    _draw_edges(ax, factors, layout, theme)
-    in_time = bool(layout.columns)
+    lines = [[layout.factors[factor.label], spots[variable.name]] for factor in factors for variable in factor.scope]
+    ax.add_collection(LineCollection(lines, colors=[theme.shade(0.55)], linewidths=1.0, zorder=1))
     for variable in variables:
-        _draw_variable(ax, graph, variable, layout.variables[variable.name], theme, longest=0.44 if in_time else 0.8)
+        _draw_variable(ax, graph, variable, spots[variable.name], longest=0.44 if in_time else 0.8)
     for factor in factors:
-        ends = [layout.variables[variable.name] for variable in factor.scope]
-        _draw_factor(ax, factor, layout.factors[factor.label], ends, theme, in_time=in_time)
-    _draw_times(ax, layout.columns, limits[2] + 0.14, cut, theme)
-    if title is not None:
-        ax.set_title(title)
+        ends = [spots[variable.name] for variable in factor.scope]
+        _draw_factor(ax, factor, layout.factors[factor.label], ends, in_time=in_time)
+    for time, x in layout.columns.items():
+        text = f"… t = {time}" if cut and time == min(layout.columns) else f"t = {time}"
+        write_in(ax, x, limits[2] + 0.14, text, box=(0.8, 0.2), largest=11.0, color=theme.ink)
     return ax
 
 
@@ -89,8 +76,12 @@ def _part(graph: FactorGraph, last: int | None) -> tuple[list[Variable], list[Fa
     kept = set(times if last is None else times[-last:])
     variables = [variable for variable in graph.variables if variable.time is None or variable.time in kept]
     factors = _among(graph.factors, variables)
-    if len(kept) < len(times):
-        variables = [variable for variable in variables if not _bereft(graph, factors, variable)] or variables
+    if len(kept) < len(times):  # without those that the cut left nothing but a prior of their own
+        widest, before = (
+            {v.name: max((len(f.scope) for f in among if v in f.scope), default=0) for v in variables}
+            for among in (factors, graph.factors)
+        )
+        variables = [v for v in variables if not widest[v.name] == 1 < before[v.name]] or variables
     return variables, _among(factors, variables), len(kept) < len(times)
 
 
@@ -99,32 +90,10 @@ def _among(factors: Sequence[Factor], variables: Sequence[Variable]) -> list[Fac
     return [factor for factor in factors if all(variable.name in names for variable in factor.scope)]
 
 
-def _bereft(graph: FactorGraph, factors: Sequence[Factor], variable: Variable) -> bool:
-    """Whether the cut took all that tied the variable to others and left only a prior of its own."""
-    left = [len(factor.scope) for factor in factors if variable in factor.scope]
-    before = [len(factor.scope) for factor in graph.factors if variable in factor.scope]
-    return bool(left) and max(left) == 1 < max(before)
-
-
-def _size(limits: tuple[float, float, float, float]) -> tuple[float, float]:
-    width, height = limits[1] - limits[0], limits[3] - limits[2]
-    inches = min(INCHES, WIDEST / max(width, height))
-    return max(inches * width, 3.0), max(inches * height, 2.0) + 0.3
-
-
-def _draw_edges(ax: Axes, factors: Sequence[Factor], layout: GraphLayout, theme: Theme) -> None:
-    from matplotlib.collections import LineCollection
-
-    lines = [[layout.factors[f.label], layout.variables[v.name]] for f in factors for v in f.scope]
-    ax.add_collection(LineCollection(lines, colors=[theme.shade(0.55)], linewidths=1.0, zorder=1))
-
-
-def _draw_variable(
-    ax: Axes, graph: FactorGraph, variable: Variable, point: Point, theme: Theme, *, longest: float
-) -> None:
+def _draw_variable(ax: Axes, graph: FactorGraph, variable: Variable, point: Point, *, longest: float) -> None:
     from matplotlib.patches import Ellipse
 
-    seen = graph.is_observed(variable)
+    theme, seen = theme_of(ax), graph.is_observed(variable)
     width = min(2 * RADIUS * max(len(variable.name) / 4, 1.0), longest)
     face = mixed(SKY, theme.paper, 0.75) if seen else theme.paper
     ax.add_artist(Ellipse(point, width, 2 * RADIUS, facecolor=face, edgecolor=theme.ink, linewidth=1.2, zorder=2))
@@ -139,41 +108,30 @@ def _label_seen(graph: FactorGraph, variable: Variable) -> str:
     """What was observed: `=label`; doors as a row of ones (open) and zeros."""
     if variable.name not in graph.evidence and variable.cardinality > 1:
         return ""
-    label = graph.evidence.get(variable.name, variable.domain[0])
-    if isinstance(label, tuple) and label and all(isinstance(part, bool) for part in label):  # pyright: ignore[reportUnknownVariableType]
+    label: Any = graph.evidence.get(variable.name, variable.domain[0])
+    if isinstance(label, tuple) and label and all(isinstance(part, bool) for part in label):
         return "".join("1" if part else "0" for part in label)
     return f"={label}"
 
 
-def _draw_factor(ax: Axes, factor: Factor, point: Point, ends: Sequence[Point], theme: Theme, *, in_time: bool) -> None:
+def _draw_factor(ax: Axes, factor: Factor, point: Point, ends: Sequence[Point], *, in_time: bool) -> None:
     from matplotlib.patches import Rectangle
 
-    x, y = point
-    ax.add_artist(Rectangle((x - HALF, y - HALF), 2 * HALF, 2 * HALF, facecolor=theme.ink, edgecolor="none", zorder=2))
-    (right, up), ha, va = _free_side(point, ends)
+    (x, y), ink = point, theme_of(ax).ink
+    ax.add_artist(Rectangle((x - HALF, y - HALF), 2 * HALF, 2 * HALF, facecolor=ink, edgecolor="none", zorder=2))
+    right, up = _free_side(point, ends)
     name, bracket, action = factor.name.partition("[")
     text = f"{name}\n{action.rstrip(']')}" if bracket else name
     width = (0.19 if right else 0.3 if len(ends) == 1 else 0.6) if in_time else (0.4 if right else 0.6)
     at = (x + right * (HALF + 0.03), y + up * (HALF + 0.02))
-    style: dict[str, Any] = {"largest": 9.0, "color": theme.ink, "ha": ha, "va": va, "zorder": 3}
-    write_in(ax, *at, text, box=(width, 0.32 if bracket else 0.17), **style)
+    aligned = {"ha": ("center", "left", "right")[right], "va": ("center", "bottom", "top")[up]}
+    write_in(ax, *at, text, box=(width, 0.32 if bracket else 0.17), largest=9.0, color=ink, zorder=3, **aligned)
 
 
-def _free_side(point: Point, ends: Sequence[Point]) -> tuple[Point, str, str]:
+def _free_side(point: Point, ends: Sequence[Point]) -> tuple[int, int]:
     """The first side of a factor that is clear of its lines, or the clearest one; to the left if it leans there."""
     sides = (*_SIDES[:2], *_SIDES[:1:-1]) if ends[0][0] < ends[-1][0] - 0.01 else _SIDES
-    angles = [np.arctan2(y - point[1], x - point[0]) for x, y in ends]
-    clear = [min(_degrees_between(angle, np.arctan2(up, right)) for angle in angles) for (right, up), _, _ in sides]
-    best = next((i for i, degrees in enumerate(clear) if degrees >= CLEAR), int(np.argmax(clear)))
-    return sides[best]
-
-
-def _degrees_between(one: float, other: float) -> float:
-    apart = abs(np.degrees(one - other)) % 360.0
-    return float(min(apart, 360.0 - apart))
-
-
-def _draw_times(ax: Axes, columns: Mapping[int, float], y: float, cut: bool, theme: Theme) -> None:
-    for time, x in columns.items():
-        text = f"… t = {time}" if cut and time == min(columns) else f"t = {time}"
-        write_in(ax, x, y, text, box=(0.8, 0.2), largest=11.0, color=theme.ink)
+    angles = np.degrees([np.arctan2(y - point[1], x - point[0]) for x, y in ends])
+    apart = [np.abs(angles - np.degrees(np.arctan2(up, right))) % 360.0 for right, up in sides]
+    clear = [float(np.minimum(degrees, 360.0 - degrees).min()) for degrees in apart]
+    return sides[next((i for i, degrees in enumerate(clear) if degrees >= CLEAR), int(np.argmax(clear)))]

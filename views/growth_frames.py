@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..agent import Agent
-from ..model.errors import CogmapError
-from ..model.files import make_folder, write_through, write_whole
-from .axes import Cell, axes_or_new, flat
-from .growth_news import GrowthFrame, caption, news_of
-from .map_picture import PlacePicture, picture_of
-from .map_plot import RADIUS, draw_picture
-from .maze_plot import Sights
-from .theme import theme_of
+from ..model import CogmapError, GrowthEvent, make_folder, write_through
+from ..worlds import Chart
+from .axes import Cell, axes_or_new
+from .map_picture import MapPicture
+from .map_plot import draw_map, underlay
+from .picture import RADIUS
+from .theme import VERMILION, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,24 +27,32 @@ if TYPE_CHECKING:
 HERE = RADIUS + 0.08  # radius of the ring around the place where the agent believes to be
 PIXELS = 100  # an inch
 
+_WORDS = {"place": "imagined", "bind": "bound", "unbind": "unbound", "retract": "taken back"}
+
+
+@dataclass(frozen=True, slots=True)
+class GrowthFrame:
+    """One moment of a growing map."""
+
+    step: int  # of the agent's last observation
+    delta: dict[str, Any]  # what has changed in the map since the frame before, as `MapPicture.apply` takes it
+    place: int  # where the agent believed to be
+    news: str  # what had been added since the frame before
+
 
 class GrowthFrames:
     """Pictures of an agent's map, one a step; what did not change from one to the next is kept once.
 
     Example: `frames = GrowthFrames()`, then `frames.add(agent)` after each step, and `frames.save_gif("map.gif")`.
-
-    Args:
-        sights: the rooms of the true maze, drawn faintly beneath; label by (row, column).
-        start: row and column of the place that the agent takes as its origin.
-
-    Attributes:
-        frames: the frames so far.
+    The `frames` so far can be read.
     """
 
-    def __init__(self, *, sights: Sights | None = None, start: Sequence[float] = (0, 0)) -> None:
+    def __init__(self, *, chart: Chart | None = None, start: Any = (0, 0)) -> None:
         self.frames: list[GrowthFrame] = []
-        self._sights, self._start = sights, start
+        self._world, self._origin = underlay(chart, start)
+        self._map: MapPicture | None = None
         self._logged = 0
+        self._cells: set[Cell] = set()  # where there is a place in any of the frames
 
     def __len__(self) -> int:
         return len(self.frames)
@@ -52,11 +63,21 @@ class GrowthFrames:
         Raises:
             CogmapError: the agent has seen nothing yet, or its map has more than two dimensions.
         """
-        place = agent.belief.place
-        before = self.frames[-1].picture if self.frames else None
-        news = news_of(agent.map.growth[self._logged :])
+        place, news = agent.belief.place, _news(agent.map.growth[self._logged :])
         self._logged = len(agent.map.growth)
-        self.frames.append(GrowthFrame(agent.steps - 1, picture_of(agent.map, before=before), place, news))
+        self._map = self._map or MapPicture(agent.map.motions, agent.map.sights)
+        self.frames.append(GrowthFrame(agent.steps - 1, self._map.update(agent.map), place, news))
+        if self._map.located:
+            self._cells.update(self._map.drawn(self._origin).cells.values())
+
+    def maps(self) -> Iterator[MapPicture]:
+        """The map at each frame: always the same object, changed in place."""
+        if self._map is not None:
+            layout = None if self._map.located else self._map.cells  # so that places stay where they are
+            picture = MapPicture(self._map.motions, self._map.sights, layout=layout)
+            for frame in self.frames:
+                picture.apply(frame.delta)
+                yield picture
 
     def plot(self, index: int = -1, *, title: str | None = None, ax: Axes | None = None) -> Axes:
         """One frame, on axes that have room for all of them; the ring is where the agent believes to be.
@@ -69,13 +90,19 @@ class GrowthFrames:
         Raises:
             CogmapError: there is no such frame.
         """
+        from matplotlib.patches import Circle
+
         if not -len(self) <= index < len(self):
             raise CogmapError(f"growth frames: there is no frame {index}; there are {len(self)}, call add(agent) first")
-        frame = self.frames[index]
-        ax = axes_or_new(ax, size=(6.0, 6.0))
-        draw_picture(ax, frame.picture, sights=self._sights, start=self._start, room=self._cells())
-        _draw_here(ax, frame.picture.places.get(frame.place), self._start)
-        ax.set_title(caption(frame) if title is None else title, fontsize="medium")
+        frame, picture = self.frames[index], next(islice(self.maps(), index % len(self), None))
+        ax = axes_or_new(ax=ax, size=(6.0, 6.0))
+        cells = draw_map(ax, picture, self._world, self._origin, room=self._cells).cells
+        if frame.place in cells:
+            (row, column), colour = cells[frame.place], theme_of(ax).line(VERMILION)
+            ax.add_artist(Circle((column, row), HERE, fill=False, edgecolor=colour, linewidth=2.5, zorder=4))
+        size = f"{len(picture.places)} place{'s' if len(picture.places) != 1 else ''}, {picture.visited} visited"
+        caption = f"step {frame.step}: {size}\n{frame.news or 'nothing new'}"
+        ax.set_title(caption if title is None else title, fontsize="medium")
         return ax
 
     def save_gif(self, path: str | PathLike[str], *, seconds: float = 0.5, last: float = 2.0) -> Path:
@@ -99,17 +126,19 @@ class GrowthFrames:
             raise CogmapError(
                 f"growth frames: {seconds} and {last} seconds a frame; give positive times of a minute or so"
             )
-        self._check()
-        shown = [*range(len(self)), *[len(self) - 1] * (max(round(last / seconds), 1) - 1)]
+        drawn = self._drawn()
 
-        def draw(target: Path) -> None:
-            figure, writer = _figure(), PillowWriter(fps=1 / seconds)  # pyright: ignore[reportArgumentType]
-            with writer.saving(figure, str(target), dpi=PIXELS):
-                for index in shown:
-                    self._draw(figure, index)
+        def write(target: Path) -> None:
+            writer = PillowWriter(fps=1 / seconds)  # pyright: ignore[reportArgumentType]
+            for number, figure in enumerate(drawn):
+                if not number:
+                    writer.setup(figure, str(target), dpi=PIXELS)
+                stays = max(round(last / seconds), 1) if number == len(self) - 1 else 1
+                for _ in range(stays):
                     writer.grab_frame(facecolor=figure.get_facecolor())
+            writer.finish()
 
-        return write_through(path, draw)
+        return write_through(path, write)
 
     def save_pngs(self, folder: str | PathLike[str]) -> list[Path]:
         """Write each frame as `frame_0000.png` and so on into a folder, which is made where it is missing.
@@ -120,50 +149,32 @@ class GrowthFrames:
         Raises:
             CogmapError: there are no frames, or a file that cannot be written.
         """
-        self._check()
-        target, figure = make_folder(Path(folder)), _figure()
-        written: list[Path] = []
-        for index in range(len(self)):
-            self._draw(figure, index)
-            written.append(write_whole(target / f"frame_{index:04}.png", _png(figure)))
-        return written
+        drawn, target = enumerate(self._drawn()), make_folder(Path(folder))
+        paths = ((target / f"frame_{index:04}.png", figure) for index, figure in drawn)
+        return [write_through(path, partial(figure.savefig, dpi=PIXELS)) for path, figure in paths]
 
-    def _check(self) -> None:
+    def _drawn(self) -> Iterator[Figure]:
+        """The figure of each frame: always the same, drawn anew."""
+        from matplotlib.figure import Figure
+
         if not self.frames:
             raise CogmapError("growth frames: there are none yet; call add(agent) after each step")
+        figure = Figure(figsize=(6.0, 6.0), layout="constrained")
 
-    def _cells(self) -> list[Cell]:
-        """Where there is a place in any of the frames."""
-        down, right = flat(self._start)
-        cells = {place.cell for frame in self.frames for place in frame.picture.places.values()}
-        return [(row + down, column + right) for row, column in cells]
+        def draw(index: int) -> Figure:
+            figure.clear()
+            self.plot(index, ax=figure.add_subplot())
+            return figure
 
-    def _draw(self, figure: Figure, index: int) -> None:
-        figure.clear()
-        self.plot(index, ax=figure.add_subplot())
+        return map(draw, range(len(self)))
 
 
-def _figure() -> Figure:
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(6.0, 6.0), layout="constrained")
-
-
-def _png(figure: Figure) -> bytes:
-    from io import BytesIO
-
-    buffer = BytesIO()
-    figure.savefig(buffer, format="png", dpi=PIXELS)
-    return buffer.getvalue()
-
-
-def _draw_here(ax: Axes, place: PlacePicture | None, start: Sequence[float]) -> None:
-    from matplotlib.patches import Circle
-
-    from .colours import VERMILION
-    from .map_plot import shifted
-
-    if place is not None:
-        row, column = shifted(place, start).cell
-        colour = theme_of(ax).line(VERMILION)
-        ax.add_artist(Circle((column, row), HERE, fill=False, edgecolor=colour, linewidth=2.5, zorder=4))
+def _news(events: Sequence[GrowthEvent]) -> str:
+    """What the events added, such as "2 imagined, new sight 7"."""
+    counts = Counter[str]()
+    for event in events:
+        if event.kind in _WORDS:
+            counts[_WORDS[event.kind]] += event.index if event.kind == "retract" else 1
+    sights = [str(event.label) for event in events if event.kind == "sight"]
+    parts = [f"{count} {what}" for what, count in counts.items() if count]
+    return ", ".join([*parts, *([f"new sight {', '.join(sights)[:24]}"] if sights else [])])

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from ..model import CognitiveMap
-from ..model.errors import CogmapError
+from ..model import CogmapError, CognitiveMap
 from ..planning import Plan
-from .axes import Cell, as_grid, axes_or_new, cell_points, flat
-from .colours import BLUE, RGB, SKY, contrast, mixed
-from .theme import Theme, theme_of
+from .axes import Cell, Where, as_grid, axes_or_new, cell_points, flat
+from .map_picture import MapPicture
+from .theme import BLUE, RGB, SKY, Theme, contrast, mixed, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,23 +43,18 @@ def policy_paths(
     Raises:
         CogmapError: positions of more than two dimensions.
     """
-    down, right = flat(start)
-    positions = [map_.position(place) if place >= 0 else None for place in plan.places.tolist()]
-    cells = [None if at is None else (flat(at)[0] + down, flat(at)[1] + right) for at in positions]
+    drawn, model = MapPicture.of(map_).drawn(flat(start)).cells, plan.model
+    cells = [drawn.get(place) for place in plan.places.tolist()]
     shares: defaultdict[tuple[Cell, ...], float] = defaultdict(float)
-    for first in np.flatnonzero(plan.reach.belief >= least).tolist():
+    for first in np.flatnonzero(model.belief >= least).tolist():
         for policy in np.flatnonzero(plan.probability >= least / 10).tolist():
             if path := _path(plan, cells, first, policy):
-                shares[path] += float(plan.reach.belief[first] * plan.probability[policy])
-    return dict(
-        sorted(
-            (item for item in shares.items() if item[1] >= least and item[1] > 0.0),
-            key=lambda item: (-item[1], item[0]),
-        )
-    )
+                shares[path] += float(model.belief[first] * plan.probability[policy])
+    likely = [(path, p) for path, p in shares.items() if p >= least and p > 0.0]
+    return dict(sorted(likely, key=lambda item: (-item[1], item[0])))
 
 
-def plot_policies(paths: Paths, *, title: str | None = None, ax: Axes | None = None) -> Axes:
+def plot_policies(paths: Paths, **where: Unpack[Where]) -> Axes:
     """Imagined paths, each way as strong as it is probable that it will be walked, with a dot where paths end.
 
     They are grey over a maze, and blue, beneath the places, over a map.
@@ -69,88 +63,60 @@ def plot_policies(paths: Paths, *, title: str | None = None, ax: Axes | None = N
         paths: the cells (row, column) of each path, and P(policy), as `policy_paths` has them; those of several
             policies may be added up.
         title: above the plot.
-        ax: axes with a grid of cells to draw on, as `plot_maze` and `plot_map` leave them; new ones unless given.
+        ax: axes with a grid of cells to draw on, as `plot_world` and `plot_map` leave them; new ones unless given.
 
     Raises:
         CogmapError: a path without cells, or cells of more than two dimensions.
     """
     if not all(paths):
         raise CogmapError("plot_policies: a path has no cells; give at least the one where the agent is")
-    ways, ends = _shares([([flat(cell) for cell in path], p) for path, p in paths.items()])
-    if ax is None:
-        ax = axes_or_new(None)
+    ways: defaultdict[tuple[Cell, Cell], float] = defaultdict(float)  # in either direction
+    ends: defaultdict[Cell, float] = defaultdict(float)
+    for path, p in (([flat(cell) for cell in path], p) for path, p in paths.items()):
+        for way in {(min(pair), max(pair)) for pair in pairwise(path) if pair[0] != pair[1]}:
+            ways[way] += p
+        ends[path[-1]] += p
+    ax = axes_or_new(**where)
+    if ax.axison:
         as_grid(ax, [flat(cell) for path in paths for cell in path] or [(0.0, 0.0)])
     _draw(ax, ways, ends, theme_of(ax))
-    if title is not None:
-        ax.set_title(title)
     return ax
 
 
 def _path(plan: Plan, cells: Sequence[Cell | None], first: int, policy: int) -> tuple[Cell, ...]:
     at, path = first, [cells[first]]
     for action in plan.policies[policy].tolist():
-        ahead = int(plan.reach.successor[at, action])
+        ahead = int(plan.model.successor[at, action])
         at = at if ahead < 0 else ahead
         if cells[at] != path[-1]:
             path.append(cells[at])
     return tuple(cell for cell in path if cell is not None)
 
 
-def _shares(
-    paths: Sequence[tuple[list[Cell], float]],
-) -> tuple[dict[tuple[Cell, Cell], float], dict[Cell, float]]:
-    """P that each way is walked, in either direction, and that each cell is the last."""
-    ways: defaultdict[tuple[Cell, Cell], float] = defaultdict(float)
-    ends: defaultdict[Cell, float] = defaultdict(float)
-    for path, probability in paths:
-        for way in {(min(pair), max(pair)) for pair in pairwise(path) if pair[0] != pair[1]}:
-            ways[way] += probability
-        ends[path[-1]] += probability
-    return dict(ways), dict(ends)
-
-
 def _draw(ax: Axes, ways: Mapping[tuple[Cell, Cell], float], ends: Mapping[Cell, float], theme: Theme) -> None:
     from matplotlib.collections import LineCollection
+    from matplotlib.patches import Circle
 
-    width, on_map = min(max(cell_points(ax) / 8, 2.0), 7.0), _on_map(ax)
-    strongest = _strongest(theme) if on_map else theme.ink
+    on_map = any(isinstance(patch, Circle) for patch in ax.patches)  # places, and links as dark as paths would be
+    width = min(max(cell_points(ax) / 8, 2.0), 7.0)
+    strongest = max((BLUE, SKY), key=lambda colour: contrast(colour, theme.paper)) if on_map else theme.ink
+
+    def shade(p: float) -> RGB:
+        return mixed(strongest, theme.paper, 1.0 - PALEST * (1.0 - min(p, 1.0)))
+
     drawn = sorted((item for item in ways.items() if item[1] >= LEAST), key=lambda item: item[1])
     lines = [[(a[1], a[0]), (b[1], b[0])] for (a, b), _ in drawn]
-    shades = [_shade(p, strongest, theme) for _, p in drawn]
     # rims keep the palest and the darkest shade apart from any floor
     outer = theme.shade(0.45) if on_map else theme.ink
-    for colour, wide, above in ((outer, 2.1, 1.5), (theme.paper, 1.8, 1.6)):
-        rim: dict[str, Any] = {"colors": [colour], "linewidths": width * wide, "capstyle": "round", "zorder": above}
-        ax.add_collection(LineCollection(lines, **rim))
-    ax.add_collection(LineCollection(lines, colors=shades, linewidths=width, capstyle="round", zorder=1.7))
-    dots = {cell: _shade(p, strongest, theme) for cell, p in sorted(ends.items(), key=lambda e: e[1]) if p >= LEAST}
-    if on_map:
-        _draw_rings(ax, dots, theme)
-        return
-    x, y = [column for _, column in dots], [row for row, _ in dots]
-    look: dict[str, Any] = {"c": list(dots.values()), "edgecolors": [theme.paper], "linewidths": 0.3 * width}
-    ax.scatter(x, y, s=(2.2 * width) ** 2, zorder=1.8, **look)
-
-
-def _draw_rings(ax: Axes, dots: Mapping[Cell, RGB], theme: Theme) -> None:
-    """Discs behind the places of a map, which would hide a dot."""
-    from matplotlib.patches import Circle
-
-    for (row, column), shade in dots.items():
-        look: dict[str, Any] = {"facecolor": shade, "edgecolor": theme.ink, "linewidth": 0.7, "zorder": 1.8}
+    shades = [shade(p) for _, p in drawn]
+    for colours, wide, above in (([outer], 2.1, 1.5), ([theme.paper], 1.8, 1.6), (shades, 1.0, 1.7)):
+        style: dict[str, Any] = {"colors": colours, "linewidths": width * wide, "capstyle": "round", "zorder": above}
+        ax.add_collection(LineCollection(lines, **style))
+    dots = {cell: shade(p) for cell, p in sorted(ends.items(), key=lambda e: e[1]) if p >= LEAST}
+    look: dict[str, Any] = {"edgecolors": [theme.paper], "linewidths": 0.3 * width, "zorder": 1.8}
+    if not on_map:
+        x, y = [column for _, column in dots], [row for row, _ in dots]
+        ax.scatter(x, y, s=(2.2 * width) ** 2, c=list(dots.values()), **look)
+    for (row, column), colour in dots.items() if on_map else ():  # discs behind the places, which would hide a dot
+        look = {"facecolor": colour, "edgecolor": theme.ink, "linewidth": 0.7, "zorder": 1.8}
         ax.add_artist(Circle((column, row), RING, **look))
-
-
-def _on_map(ax: Axes) -> bool:
-    """Whether there are places, and links as dark as paths would be."""
-    from matplotlib.patches import Circle
-
-    return any(isinstance(patch, Circle) for patch in ax.patches)
-
-
-def _strongest(theme: Theme) -> RGB:
-    return max((BLUE, SKY), key=lambda colour: contrast(colour, theme.paper))
-
-
-def _shade(p: float, strongest: RGB, theme: Theme) -> RGB:
-    return mixed(strongest, theme.paper, 1.0 - PALEST * (1.0 - min(p, 1.0)))

@@ -2,46 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator
 from dataclasses import dataclass
 from os import PathLike
 from typing import Any
 
 from ..agent import Agent, StepRecord
-from ..model.errors import CogmapError
-from ..model.labels import decode, encode
+from ..model import CogmapError, decode, encode, plain
+from ..worlds import Chart, Place
 from . import recording_file
+from .map_picture import KNOWN, MapPicture
 from .recording_check import check
-from .recording_map import KNOWN, MapPicture, MapWatch
-from .recording_plan import TERMS, plan_frame
-from .recording_window import Window, window_frames
+from .recording_frames import NUMBERS, WindowWatch, plan_frame, term_json, world_json
+from .world_plot import as_place, world_picture
 
 DIGITS = 4
-MOST_PLACES = 8
-"""Places of the belief that are kept, the most probable ones."""
-
-Room = Sequence[int]
+MOST_PLACES = 8  # places of the belief that are kept, the most probable ones
 
 
 @dataclass(frozen=True, slots=True)
 class Recording:
-    """A recorded walk.
+    """A recorded walk."""
 
-    Attributes:
-        data: the content of the file, as JSON values.
-    """
-
-    data: dict[str, Any]
+    data: dict[str, Any]  # the content of the file, as JSON values
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Recording:
-        """The recording that `save` wrote.
+        """The recording that `save` wrote, now or in an earlier version.
 
         Raises:
             CogmapError: no such file, no recording, truncated, damaged, or of another schema.
         """
         data = recording_file.read(path)
-        check(data, where=str(path))
+        try:
+            data = recording_file.upgraded(data)
+            check(data)
+        except (AttributeError, LookupError, TypeError, ValueError) as error:
+            why = f"{type(error).__name__}: {error}"
+            raise CogmapError(f"recording: {path} is damaged ({why}); record it again") from error
         return cls(data)
 
     def save(self, path: str | PathLike[str]) -> None:
@@ -58,18 +56,18 @@ class Recording:
         return self.data["frames"]
 
     @property
-    def actions(self) -> list[str]:
-        """Names of the actions."""
-        return self.data["motions"]["names"]
+    def sights(self) -> list[Hashable]:
+        """Labels of what places show, by number."""
+        return [decode(label) for label in self.data["sights"]]
 
     @property
-    def sights(self) -> list[Hashable]:
-        """Labels of the sights, by number."""
-        return [decode(label) for label in self.data["sights"]]
+    def places(self) -> list[Hashable]:
+        """What the true places are called, by number."""
+        return [decode(place) for place in self.data["places"]]
 
     def maps(self) -> Iterator[MapPicture]:
         """The map after each step: always the same object, changed in place."""
-        picture = MapPicture()
+        picture = MapPicture.recorded(self.data)
         for frame in self.frames:
             picture.apply(frame["map"])
             yield picture
@@ -82,68 +80,59 @@ class Recorder:
     """Records an agent; call `add` after every `agent.step`.
 
     Args:
-        sights: label of each true room by (row, column), where they are to be shown.
+        chart: the true map, where it is to be shown: `world.chart`, or a maze.
         title: what the walk is called.
         goals: labels of the preferred sights, to be marked.
     """
 
-    def __init__(
-        self,
-        sights: Mapping[tuple[int, int], Hashable] | None = None,
-        *,
-        title: str = "",
-        goals: Iterable[Hashable] = (),
-    ) -> None:
-        self._maze = None if sights is None else [[*map(int, room), encode(label)] for room, label in sights.items()]
+    def __init__(self, chart: Chart | None = None, *, title: str = "", goals: Iterable[Hashable] = ()) -> None:
+        self._chart, self._world = chart, None if chart is None else world_json(world_picture(chart))
+        self._places: dict[Place, int] = {} if chart is None else {place: n for n, place in enumerate(chart.places)}
         self._title = str(title)
         self._goals = [encode(label) for label in goals]
         self._agent: Agent | None = None
         self._frames: list[dict[str, Any]] = []
-        self._map = MapWatch()
-        self._windows: list[Window] = []
-        self._origin: list[int] | None = None
+        self._origin: int | None = None
+        self._window = WindowWatch()
 
     def __len__(self) -> int:
         return len(self._frames)
 
     def add(
-        self,
-        agent: Agent,
-        *,
-        position: Room | None = None,
-        closed_rooms: Iterable[Room] = (),
-        closed_doors: Iterable[tuple[Room, Room]] = (),
+        self, agent: Agent, *, place: Place = None, closed_rooms: Iterable[Any] = (), closed_doors: Iterable[Any] = ()
     ) -> None:
         """Record the step that the agent has just made, before its action is carried out.
 
         Args:
             agent: always the same.
-            position: the true room it is in, for showing only.
-            closed_rooms: rooms closed at present.
-            closed_doors: doors closed by themselves, as pairs of rooms.
+            place: the true place it is in, for showing only.
+            closed_rooms: places closed at present.
+            closed_doors: doors closed by themselves, as pairs of places.
 
         Raises:
-            CogmapError: another agent, one that has made no step since the last call, or a label that JSON has not.
+            CogmapError: another agent, one that has made no step since the last call, a place that the chart does
+                not have, or a label that JSON has not.
         """
         record = self._fresh(agent)
-        encode(record.sight)  # refuses now what could not be written later
-        frame = _senses(agent, record) | _belief(record)
-        frame["map"] = self._map.delta(agent)
-        frame["plan"] = plan_frame(agent.plan)
-        self._windows.append(agent.window)
-        if position is not None:
-            frame["at"] = [int(part) for part in position]
-            if record.step == 0:  # the agent calls the room where it wakes the origin
+        frame = _frame(agent, record)
+        if place is not None:
+            frame["at"] = self._number(place)
+            if record.step == 0:  # the agent calls the place where it wakes the origin
                 self._origin = frame["at"]
-        if rooms := sorted([int(x) for x in room] for room in closed_rooms):
+        if rooms := sorted(map(self._number, closed_rooms)):
             frame["closed_rooms"] = rooms
-        if doors := sorted([[int(x) for x in room] for room in door] for door in closed_doors):
+        if doors := sorted(sorted(map(self._number, door)) for door in closed_doors):
             frame["closed_doors"] = doors
+        frame |= {
+            "map": self._map.update(agent.map),
+            "plan": plan_frame(agent.plan),
+            "window": self._window.delta(agent.graph),
+        }
         self._frames.append(frame)
 
     def _fresh(self, agent: Agent) -> StepRecord:
         if self._agent is None:
-            self._agent = agent
+            self._agent, self._map = agent, MapPicture(agent.map.motions, agent.map.sights)
         if agent is not self._agent:
             raise CogmapError("recorder: this is another agent; use a recorder of its own for each")
         if not agent.trace:
@@ -151,6 +140,12 @@ class Recorder:
         if self._frames and agent.trace[-1].step <= self._frames[-1]["step"]:
             raise CogmapError(f"recorder: step {agent.trace[-1].step} is recorded already; call add once a step")
         return agent.trace[-1]
+
+    def _number(self, place: Place) -> int:
+        place = as_place(place)
+        if self._chart is not None and place not in self._places:
+            raise CogmapError(f"recorder: {place!r} is no place of {self._chart.name!r}; see chart.places")
+        return self._places.setdefault(place, len(self._places))
 
     def recording(self) -> Recording:
         """All that was recorded so far.
@@ -160,56 +155,42 @@ class Recorder:
         """
         if self._agent is None or not self._frames:
             raise CogmapError("recorder: nothing was recorded; call add after agent.step")
-        map_, settings = self._agent.map, self._agent.settings
-        return Recording(
-            {
-                "format": recording_file.FORMAT,
-                "schema": recording_file.SCHEMA,
-                "title": self._title,
-                "motions": {
-                    "names": list(map_.motions.names),
-                    "displacements": [list(vector) for vector in map_.motions.displacements],
-                    "stay": map_.motions.stay,
-                },
-                "settings": settings.to_dict(),
-                "terms": list(TERMS),
-                "known": list(KNOWN),
-                "sights": [encode(label) for label in map_.sights],
-                "maze": self._maze,
-                "origin": self._origin,
-                "goals": self._goals,
-                "frames": [
-                    {**frame, "window": window}
-                    for frame, window in zip(self._frames, window_frames(map_, self._windows), strict=True)
-                ],
-            }
-        )
+        map_, motions = self._agent.map, self._agent.map.motions
+        vectors = [list(vector) for vector in motions.displacements]
+        data = {
+            "format": recording_file.FORMAT,
+            "schema": recording_file.SCHEMA,
+            "title": self._title,
+            "motions": {"names": list(motions.names), "displacements": vectors, "stay": motions.stay},
+            "settings": self._agent.settings.to_dict(),
+            "terms": [term_json(term) for term in self._agent.plan.expected_free_energy.terms],
+            "known": list(KNOWN),
+            "sights": [encode(label) for label in map_.sights],
+            "places": [encode(plain(place)) for place in self._places],
+            "world": self._world,
+            "origin": self._origin,
+            "goals": self._goals,
+            "frames": list(self._frames),
+        }
+        return Recording(data)
 
     def save(self, path: str | PathLike[str]) -> None:
         """`recording().save(path)`."""
         self.recording().save(path)
 
 
-def _senses(agent: Agent, record: StepRecord) -> dict[str, Any]:
-    return {
-        "step": record.step,
-        "sight": agent.map.sights.index(record.sight),
-        "open": [int(is_open) for is_open in record.open],
-        "grown": [
-            [event.kind, event.index, event.source, event.action] for event in record.grown if event.kind != "time"
-        ],
-        "retracted": record.retracted,
-    }
-
-
-def _belief(record: StepRecord) -> dict[str, Any]:
+def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
+    """What was sensed, grown and believed."""
+    grown = [event for event in record.grown if event.kind != "time"]
     places = [[place, round(q, DIGITS)] for place, q in list(record.places.items())[:MOST_PLACES]]
     return {
+        "step": record.step,
+        "seen": {sensor: encode(label) for sensor, label in record.sensed.items()},
+        "open": [int(is_open) for is_open in record.open],
+        "grown": [[event.kind, event.index, event.source, event.action] for event in grown],
+        "retracted": record.retracted,
         "belief": places,
         "rest": round(max(0.0, 1.0 - sum(q for _, q in places)), DIGITS),
         "certain": record.certain,
-        **{
-            name: round(float(getattr(record, name)), DIGITS)
-            for name in ("certainty", "doubt", "moved", "free_energy", "complexity", "accuracy", "evidence")
-        },
+        **{name: round(float(getattr(record, name)), DIGITS) for name in NUMBERS},
     }

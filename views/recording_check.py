@@ -1,125 +1,133 @@
-"""Whether a recording says what a recording should, so that no page fails on it."""
+"""What a recording has to look like, so that no page fails on it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
-from ..model.errors import CogmapError
-from ..model.labels import decode
-from .recording_map import MapPicture
+from ..model import decode
+from .map_picture import MapPicture
+from .recording_frames import NUMBERS, TERM
 
-NUMBERS = ("step", "sight", "rest", "certainty", "doubt", "moved", "free_energy", "complexity", "accuracy", "evidence")
-A_POLICY = ("policies", "P", "G", "terms", "paths")
+Fits = Callable[[Any], bool]
+Shape = Any
+"""A dict of parts by name, `[shape]` of any number alike, a tuple of shapes one by one (`..., shape` for any number
+more of it), or what a leaf must fit."""
 
 
-def check(data: dict[str, Any], *, where: str) -> None:
-    """Go through all of it once.
+def _kind(*kinds: type) -> Fits:
+    return lambda value: isinstance(value, kinds) and (bool in kinds or not isinstance(value, bool))
+
+
+_any, _text, _flag, _whole, _number = _kind(object, bool), _kind(str), _kind(bool), _kind(int), _kind(int, float)
+
+
+def _label(value: Any) -> bool:
+    return hash(decode(value)) < 2**64
+
+
+def check(data: dict[str, Any]) -> None:
+    """Go through all of a recording once.
 
     Raises:
-        CogmapError: something is missing, of the wrong kind, or about places that there are not.
+        AttributeError, LookupError, TypeError, ValueError: something is missing, of the wrong kind, or about places
+            that there are not.
     """
-    try:
-        _check_head(data)
-        picture = MapPicture()
-        for frame in data["frames"]:
-            picture.apply(frame["map"])
-            _check_map(data, picture, frame["map"])
-            _check_frame(data, frame, len(picture.places))
-    except (AttributeError, LookupError, TypeError, ValueError) as error:
-        raise CogmapError(
-            f"recording: {where} is damaged ({type(error).__name__}: {error}); record it again"
-        ) from error
+    _need(data, _head(data), "recording")
+    picture = MapPicture.recorded(data)
+    for number, frame in enumerate(data["frames"]):
+        picture.apply(frame["map"])
+        _need(frame, _frame(data, frame, len(picture.places)), f"frame {number}")
 
 
-def _check_head(data: dict[str, Any]) -> None:
-    motions = data["motions"]
-    size = len(motions["displacements"][0])
-    _need(len(motions["names"]) == len(motions["displacements"]), "motions")
-    _need(all(isinstance(name, str) for name in motions["names"]), "names of the motions")
-    _need(all(len(_whole(vector)) == size for vector in motions["displacements"]), "displacements")
-    _need(motions["stay"] in range(len(motions["names"])), "stay")
-    _need(isinstance(data["title"], str) and isinstance(data["frames"], list) and bool(data["frames"]), "frames")
-    _need(all(isinstance(name, str) for name in [*data["terms"], *data["known"]]), "terms")
-    _need(all(isinstance(data[name], list) for name in ("sights", "goals", "terms", "known")), "lists of labels")
-    for label in [*data["sights"], *data["goals"], *(room[2] for room in data["maze"] or ())]:
-        hash(decode(label))
-    for room in data["maze"] or ():
-        _need(len(_whole(room[:2])) == 2, "maze")
-    _need(data["origin"] is None or bool(_whole(data["origin"])), "origin")
-    _number(data["settings"]["certainty"])
+def _head(data: dict[str, Any]) -> Shape:
+    world, place = data["world"], _below(len(data["places"]))
+    shape: dict[str, Shape] = {
+        "title": _text,
+        "motions": {"names": [_text], "displacements": [[_whole]], "stay": _whole},
+        "settings": {"certainty": _number},
+        "terms": [dict.fromkeys(TERM, _text) | {"sign": _number}],
+        "known": [_text],
+        "goals": [_label],
+        "places": [_label],
+        "sights": [_label],
+        "origin": _or_none(place),
+        "frames": (_any, ..., _any),
+    }
+    if world is not None:
+        room = _below(len(world["places"]))
+        ways = [(room, room, _below(2), ..., [_number])]
+        places = [(_number, _number, _label)]
+        shape["world"] = {"rooms": _flag, "places": places, "ways": ways, "walls": [(_number,) * 4]}
+    return shape
 
 
-def _check_frame(data: dict[str, Any], frame: dict[str, Any], places: int) -> None:
-    for name in NUMBERS:
-        _number(frame[name])
-    _need(frame["sight"] in range(len(data["sights"])), "sight")
-    _need(len(frame["open"]) == len(data["motions"]["names"]), "open")
-    _need(all(place in range(places) and _number(q) >= 0 for place, q in frame["belief"]), "belief")
-    _need(bool(frame["belief"]), "belief")
-    _need(all(isinstance(kind, str) and len(rest) == 3 for kind, *rest in frame["grown"]), "grown")
-    _need(frame["retracted"] is None or isinstance(frame["retracted"], int), "retracted")
-    _need(isinstance(frame["certain"], bool), "certain")
-    _need("at" not in frame or len(_whole(frame["at"])) == len(data["motions"]["displacements"][0]), "at")
-    for room in frame.get("closed_rooms", ()):
-        _whole(room)
-    for one, other in frame.get("closed_doors", ()):
-        _whole([*one, *other])
-    _check_plan(data, frame["plan"], places)
-    _check_window(frame["window"])
+def _frame(data: dict[str, Any], frame: dict[str, Any], places: int) -> Shape:
+    plan, delta, actions, terms = frame["plan"], frame["map"], len(data["motions"]["names"]), len(data["terms"])
+    place, action, at, count = _below(places), _below(actions), _below(len(data["places"])), len(plan["policies"])
+    of_map = {
+        "size": _below(places + 1, least=places),
+        "places": [(place, _or_none([_number]), _any, _or_none(_below(len(data["sights"]))), _number)],
+        "ways": [_way(place, action, _below(len(data["known"])))],
+    }
+    optional = {"at": at, "closed_rooms": [at], "closed_doors": [(at, at)]}
+    return {
+        **dict.fromkeys(("step", "rest", *NUMBERS), _number),
+        **{name: shape for name, shape in optional.items() if name in frame},
+        "seen": dict.fromkeys(frame["seen"], _label),
+        "open": (_below(2),) * actions,
+        "grown": [(_text, _any, _any, _any)],
+        "retracted": _or_none(_whole),
+        "certain": _flag,
+        "belief": ((place, _number), ..., (place, _number)),
+        "map": {name: shape for name, shape in of_map.items() if name in delta},
+        "plan": {
+            **dict.fromkeys(("considered", "cut", "ties"), _number),
+            **dict.fromkeys(("P", "G"), (_number,) * count),
+            "chosen": _below(count),
+            "action": action,
+            "policies": [[action]],
+            "terms": ((_number,) * terms,) * count,
+            "mean": (_number,) * terms,
+            "paths": ([_below(places, least=-1)],) * count,
+        },
+        "window": {
+            "since": _number,
+            "variables": [(_text, _whole, ..., _any)],
+            "factors": [(_text, _text, _text, ..., _text)],
+            "tops": [(_text, _any, _number)],
+        },
+    }
 
 
-def _check_map(data: dict[str, Any], picture: MapPicture, delta: dict[str, Any]) -> None:
-    size = len(picture.places)
-    _need(delta.get("size", size) == size, "size of the map")
-    for place, position, _, sight, probability in delta.get("places", ()):
-        _need(place in range(size) and (position is None or bool(_whole(position))), "place")
-        _need(sight is None or sight in range(len(data["sights"])), "sight of a place")
-        _number(probability)
-    for place, action, known, *ways in delta.get("ways", ()):
-        _need(place in range(size) and action in range(len(data["motions"]["names"])), "way")
-        _need(known in range(len(data["known"])), "way")
-        _need(
-            all(there in range(size) and _number(p) >= 0 for there, p in zip(ways[::2], ways[1::2], strict=True)), "way"
-        )
+def _need(value: dict[str, Any], shape: dict[str, Shape], where: str) -> None:
+    for name, part in shape.items():
+        if not _fits(value[name], part):
+            raise ValueError(f"{name} of {where} does not fit")
 
 
-def _check_plan(data: dict[str, Any], plan: dict[str, Any], places: int) -> None:
-    count, actions = len(plan["policies"]), range(len(data["motions"]["names"]))
-    _need(all(len(plan[name]) == count for name in A_POLICY), "plan")
-    _need(plan["chosen"] in range(count) and plan["action"] in actions, "choice")
-    _need(all(action in actions for policy in plan["policies"] for action in policy), "policy")
-    _need(all(len(terms) == len(data["terms"]) for terms in plan["terms"]), "terms")
-    _need(all(place in range(-1, places) for path in plan["paths"] for place in path), "path")
-    _need(len(plan["mean"]) == len(data["terms"]), "terms")
-    for numbers in [plan["mean"], plan["P"], plan["G"], *plan["terms"]]:
-        for number in numbers:
-            _number(number)
-    for name in ("considered", "cut", "ties"):
-        _number(plan[name])
+def _fits(value: Any, shape: Shape) -> bool:
+    if callable(shape):
+        return bool(shape(value))
+    if isinstance(shape, dict):
+        return all(_fits(value[name], part) for name, part in shape.items())
+    if not isinstance(value, list | tuple):
+        return False
+    if isinstance(shape, list):
+        shape = tuple(shape * len(value))
+    elif ... in shape:
+        shape = shape[:-2] + shape[-1:] * (len(value) - len(shape) + 2)
+    return len(shape) == len(value) and all(map(_fits, value, shape))
 
 
-def _check_window(window: dict[str, Any]) -> None:
-    _number(window["since"])
-    for name, time, *_ in window["variables"]:
-        _need(isinstance(name, str) and isinstance(time, int), "variable")
-    for name, kind, *scope in window["factors"]:
-        _need(bool(scope) and all(isinstance(part, str) for part in (name, kind, *scope)), "factor")
-    for name, _, probability in window["tops"]:
-        _need(isinstance(name, str) and _number(probability) >= 0, "marginal")
+def _or_none(shape: Shape) -> Fits:
+    return lambda value: value is None or _fits(value, shape)
 
 
-def _need(fine: bool, what: str) -> None:
-    if not fine:
-        raise ValueError(f"{what} does not fit")
+def _way(place: Fits, action: Fits, known: Fits) -> Fits:
+    """Where one action leads: a place, the action, how that is known, and pairs of a place and a probability."""
+    return lambda row: len(row) % 2 == 1 and _fits(row, (place, action, known, *(place, _number) * (len(row) // 2 - 1)))
 
 
-def _number(value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise TypeError(f"{value!r} is no number")
-    return value
-
-
-def _whole(values: Any) -> list[int]:
-    if not isinstance(values, list) or not all(isinstance(value, int) for value in values):  # pyright: ignore
-        raise TypeError(f"{values!r} is no list of whole numbers")
-    return values  # pyright: ignore
+def _below(size: int, *, least: int = 0) -> Fits:
+    return lambda value: _whole(value) and least <= value < size

@@ -1,37 +1,76 @@
-"""What a plot is drawn with on the ground it is given: light, dark, or any other style."""
+"""Colours of sights and of lines, told apart with any colour vision, and what can be read on which ground."""
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from .colours import RGB, against, contrast, ink_on, mixed
+from ..worlds import label_colour
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-READABLE = 4.5  # contrast that text needs
+RGB = tuple[float, float, float]
+
+BLACK: RGB = (0.0, 0.0, 0.0)
+WHITE: RGB = (1.0, 1.0, 1.0)
+READABLE = 4.5  # contrast that text needs; lines need 3
+
+
+def sight_colour(label: Hashable) -> RGB:
+    """Red, green and blue of a label, each from 0 to 1: its `label_colour`."""
+    red, green, blue = label_colour(label)
+    return red / 255, green / 255, blue / 255
+
+
+# Okabe and Ito (2008) without black, which is left to the walls
+ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = map(sight_colour, range(8))
+
+
+def hexed(colour: RGB) -> str:
+    """The colour as `#rrggbb`."""
+    return "#" + "".join(f"{round(255 * part):02x}" for part in colour)
+
+
+def contrast(one: RGB, other: RGB) -> float:
+    """Contrast ratio of two colours, from 1 to 21 (WCAG 2.2): text asks for 4.5, lines for 3."""
+
+    def luminance(colour: RGB) -> float:
+        red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in colour)
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    darker, lighter = sorted(map(luminance, (one, other)))
+    return (lighter + 0.05) / (darker + 0.05)
+
+
+def mixed(one: RGB, other: RGB, share: float) -> RGB:
+    """`share` of `one`, the rest of `other`."""
+    red, green, blue = (share * a + (1.0 - share) * b for a, b in zip(one, other, strict=True))
+    return red, green, blue
+
+
+def ink_on(colour: RGB) -> str:
+    """Black or white, whichever is easier to read on `colour`; the contrast is never below 4.5."""
+    return "black" if contrast(colour, BLACK) >= contrast(colour, WHITE) else "white"
 
 
 @dataclass(frozen=True, slots=True)
 class Theme:
-    """Colours that can be read where the plot goes.
+    """Colours that can be read where a plot goes."""
 
-    Attributes:
-        ink: of text and outlines.
-        paper: of the ground.
-    """
-
-    ink: RGB
-    paper: RGB
+    ink: RGB  # of text and outlines
+    paper: RGB  # of the ground
 
     def shade(self, strength: float) -> RGB:
         """From paper (0) to ink (1)."""
         return mixed(self.ink, self.paper, min(max(strength, 0.0), 1.0))
 
     def line(self, colour: RGB) -> RGB:
-        """The colour for a line on this ground."""
-        return against(colour, self.paper)
+        """The colour for a line on this ground: made darker or lighter until its contrast is 3."""
+        towards = BLACK if ink_on(self.paper) == "black" else WHITE
+        shades = (mixed(towards, colour, share / 20) for share in range(20))
+        return next((shade for shade in shades if contrast(shade, self.paper) >= 3.0), towards)
 
 
 def theme_of(ax: Axes) -> Theme:
@@ -40,20 +79,11 @@ def theme_of(ax: Axes) -> Theme:
     The ink is that of the style; black or white where that could not be read on the ground.
     """
     from matplotlib import rcParams
-    from matplotlib.colors import to_rgb
-
-    paper = _ground(ax)
-    ink = to_rgb(rcParams["text.color"])
-    return Theme(ink if contrast(ink, paper) >= READABLE else to_rgb(ink_on(paper)), paper)
-
-
-def _ground(ax: Axes) -> RGB:
-    from matplotlib import rcParams
     from matplotlib.colors import to_rgb, to_rgba
 
     figure = ax.get_figure(root=True)
     own = [ax.get_facecolor()] if ax.axison and ax.patch.get_visible() else []
-    for ground in (*own, figure.get_facecolor() if figure else "none", rcParams["savefig.facecolor"]):
-        if ground != "auto" and to_rgba(ground)[3] > 0.5:
-            return to_rgb(ground)
-    return to_rgb("white")
+    grounds = (*own, figure.get_facecolor() if figure else "none", rcParams["savefig.facecolor"])
+    seen = (ground for ground in grounds if ground != "auto" and to_rgba(ground)[3] > 0.5)
+    paper, ink = to_rgb(next(seen, "white")), to_rgb(rcParams["text.color"])
+    return Theme(ink if contrast(ink, paper) >= READABLE else to_rgb(ink_on(paper)), paper)

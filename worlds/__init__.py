@@ -1,46 +1,87 @@
-"""Where an agent lives: room mazes as Gymnasium environments, and exact oracles."""
+"""Where an agent lives: room mazes and graphs as Gymnasium environments, noise in them, and oracles."""
 
 from __future__ import annotations
 
+from .base import PlaceEnv
+from .behaviour import behaviour, distinguishable
 from .builtin import MAZES
 from .drawing import draw, label_colour
-from .environment import MazeEnv, Observation
+from .environment import MazeEnv
 from .errors import WorldError
-from .generate import comb, hall, random_maze, rings, spiral
+from .generate import comb, hall, office, random_maze, rings, spiral
+from .graph import POSES, GraphWorld, Layout, geometric, portal_hall, read_graph, ring, torus
 from .labyrinth import labyrinth
-from .load import load_world, register_worlds
+from .load import load_world, register_worlds, world_of
 from .maze import Door, Label, Maze, Position
 from .motions import GRID, Motions
-from .oracle import covering_steps, covering_walk, shortest_path
-from .text import format_maze, parse_maze, read_maze
+from .noise import NOISES, NoisyWorld
+from .oracle import MOST_EXACT, MOST_TOUR, MOST_WALKED, covering_steps, covering_walk, frontier_walk, tour
+from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place, World, offered, place_of
+from .routes import shortest_path, walk_length
+from .text import format_maze, parse_maze
+from .text_styles import FORMATS, read_maze
+from .wrappers import StateWorld, UnseenWays, frozen_lake
 
 __all__ = [
+    "FORMATS",
     "GRID",
     "MAZES",
+    "MOST_EXACT",
+    "MOST_TOUR",
+    "MOST_WALKED",
+    "NOISES",
+    "POSES",
+    "CanClose",
+    "CanDisplace",
+    "Chart",
     "Door",
+    "GraphWorld",
+    "HasChart",
     "Label",
+    "Layout",
     "Maze",
     "MazeEnv",
     "Motions",
+    "NoisyWorld",
     "Observation",
+    "Place",
+    "PlaceEnv",
     "Position",
+    "StateWorld",
+    "UnseenWays",
+    "World",
     "WorldError",
+    "behaviour",
     "comb",
     "covering_steps",
     "covering_walk",
+    "distinguishable",
     "draw",
     "format_maze",
+    "frontier_walk",
+    "frozen_lake",
+    "geometric",
     "hall",
     "label_colour",
     "labyrinth",
     "load_world",
+    "offered",
+    "office",
     "parse_maze",
+    "place_of",
+    "portal_hall",
     "random_maze",
+    "read_graph",
     "read_maze",
     "register_worlds",
+    "ring",
     "rings",
     "shortest_path",
     "spiral",
+    "torus",
+    "tour",
+    "walk_length",
+    "world_of",
 ]
 
 register_worlds()

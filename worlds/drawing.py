@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import operator
 import zlib
-from collections.abc import Collection
+from collections.abc import Collection, Hashable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .maze import Door, Label, Maze, Position
+from .maze import Door, Maze, Position
 
 Image = NDArray[np.uint8]
 
@@ -34,15 +35,16 @@ _PALETTE = np.array(
 _TINTS = (0.0, 0.5, -0.35)  # towards white (> 0) or black (< 0)
 
 
-def label_colour(label: Label) -> tuple[int, int, int]:
+def label_colour(label: Hashable) -> tuple[int, int, int]:
     """RGB of a label, a function of the label alone.
 
-    The numbers 0 to 23 have colours of their own; then they repeat. Words are hashed onto the palette.
+    The whole numbers 0 to 23 have colours of their own; then they repeat. Other labels are hashed onto the palette.
     """
-    if isinstance(label, int):
-        index, tint = label % len(_PALETTE), _TINTS[label // len(_PALETTE) % len(_TINTS)]
-    else:
-        code = zlib.crc32(label.encode())
+    try:
+        number = operator.index(label)  # pyright: ignore[reportArgumentType]
+        index, tint = number % len(_PALETTE), _TINTS[number // len(_PALETTE) % len(_TINTS)]
+    except TypeError:
+        code = zlib.crc32(str(label).encode("utf-8", "replace"))
         index, tint = code % len(_PALETTE), (code >> 8) % 64 / 64 * 0.95 - 0.35
     towards = 255 if tint > 0 else 0
     red, green, blue = (_PALETTE[index] * (1 - abs(tint)) + towards * abs(tint)).astype(int).tolist()

@@ -92,7 +92,8 @@ def _spanning_tree(joints: Ints, crossings: int, rng: np.random.Generator) -> ND
     from scipy.sparse.csgraph import minimum_spanning_tree
 
     weights = rng.permutation(len(joints)) + 1.0  # all different, none of them zero: one tree is the least
-    graph = csr_array((weights, (joints[:, 0], joints[:, 1])), shape=(crossings, crossings))
+    ends = joints.astype(np.int32)  # scipy before 1.17 takes no other indices
+    graph = csr_array((weights, (ends[:, 0], ends[:, 1])), shape=(crossings, crossings))
     chosen = np.asarray(minimum_spanning_tree(graph).data, dtype=np.int64) - 1
     by_weight = np.zeros(len(joints), dtype=np.bool_)
     by_weight[chosen] = True

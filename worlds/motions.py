@@ -7,18 +7,24 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Motions:
-    """Named actions, each a displacement in Z^n.
+    """Named actions.
 
     Attributes:
-        names: action names, in the order of the action indices.
-        displacements: one vector of `n` integers an action.
+        names: action names, in the order of the action indices; of a world whose ways belong to the place, those
+            that every place has.
+        displacements: one vector of `n` integers an action; empty where none are declared.
+        reverse: the index of the action that undoes each; empty where nobody says so.
+        local: whether ways belong to the place, so that each observation lists those that are there.
     """
 
     names: tuple[str, ...]
-    displacements: tuple[tuple[int, ...], ...]
+    displacements: tuple[tuple[int, ...], ...] = ()
+    reverse: tuple[int, ...] = ()
+    local: bool = False
 
 
 GRID = Motions(
     names=("up", "down", "left", "right", "stay"),
     displacements=((-1, 0), (1, 0), (0, -1), (0, 1), (0, 0)),
+    reverse=(1, 0, 3, 2, 4),
 )

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from cogmap.inference import infer
 from cogmap.model import FactorGraph, Motions
-from cogmap.planning import Policies, Reach, evaluate, policy_posterior
+from cogmap.planning import LocalModel, Policies, Transitions, evaluate, policy_posterior
 from problem import MOVES, NAMES, Arrays
 from timing import main
 
@@ -25,12 +25,12 @@ def graph_of(problem: Arrays) -> FactorGraph:
     return graph
 
 
-def reach_of(problem: Arrays) -> Reach:
+def model_of(problem: Arrays) -> LocalModel:
     """The tables as planning takes them: nothing left to learn, no walls to run into."""
     sights, places = problem["A"].shape
     length = problem["policies"].shape[1]
     nothing = np.zeros((places, length + 1))
-    return Reach(
+    return LocalModel(
         motions=Motions.of(dict(zip(NAMES, MOVES, strict=True))),
         look_ahead=length,
         places=np.arange(places),
@@ -39,20 +39,19 @@ def reach_of(problem: Arrays) -> Reach:
         multiplicity=np.ones(sights),
         log_C=problem["log_C"],
         log_C_place=np.zeros(places),
-        B=problem["B"],
-        collision=np.zeros((places, len(MOVES))),
+        B=Transitions.of(problem["B"]),
+        blocked=np.zeros((places, len(MOVES))),
         collision_cost=0.0,
-        sight_information=nothing,
-        position_information=nothing,
-        transition_information=nothing,
+        information=dict.fromkeys(("sight", "position", "transition"), nothing),
         successor=np.full((places, len(MOVES)), -1),
-        promise=np.zeros(places),
+        entered=np.ones(places, dtype=np.bool_),
+        position=np.full((places, 2), np.nan),
     )
 
 
 def side(problem: Arrays):
     """The two calls."""
-    graph, reach, policies = graph_of(problem), reach_of(problem), Policies(problem["policies"])
+    graph, model, policies = graph_of(problem), model_of(problem), Policies(problem["policies"])
     evidence = {"o1": int(problem["sight"])}
     last = {}
 
@@ -60,7 +59,7 @@ def side(problem: Arrays):
         last["posterior"] = infer(graph, evidence=evidence).marginal("s1")
 
     def planning() -> None:
-        last["G"] = evaluate(replace(reach, belief=last["posterior"]), policies).G
+        last["G"] = evaluate(replace(model, belief=last["posterior"]), policies).G
         policy_posterior(last["G"])
 
     return inference, planning, lambda: (last["posterior"], -last["G"])

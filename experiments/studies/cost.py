@@ -11,9 +11,9 @@ from typing import Any
 
 from ...agent import Settings
 from ...model.errors import CogmapError
-from ...worlds import MAZES, MazeEnv
-from ..exploring import draw_start
-from ..walkers import CSCG, make_walker, sensed
+from ...worlds import MAZES
+from ..parts import CSCG, Parts
+from ..session import set_out
 from .grid_rows import TITLES
 from .published import AUTHORS_SECONDS, PAPER_SECONDS
 from .report import Table
@@ -136,14 +136,8 @@ def forced_seconds(agent: str, settings: Settings, seed: int, steps: int) -> flo
     Raises:
         CogmapError: a negative seed.
     """
-    maze = MAZES[WORLD]
-    start, for_agent, _ = draw_start("cost", maze, seed)
-    world = MazeEnv(maze)
-    observation, info = world.reset(options={"start": start})
     begin = perf_counter()
-    walker = make_walker(agent, maze, settings=settings, seed=for_agent)
-    for _ in range(steps):
-        observation, _, _, _, info = world.step(walker.step(sensed(walker, observation, info["position"])))
+    set_out("cost", MAZES[WORLD], seed, agent=Parts(agent, settings)).run(steps)
     return perf_counter() - begin
 
 

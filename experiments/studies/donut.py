@@ -12,9 +12,9 @@ import numpy as np
 
 from ...agent import Agent, Settings
 from ...worlds import Maze, Position, shortest_path
-from ..exploring import default_steps
 from ..pool import map_seeds
-from ..session import Session, explored, mean
+from ..records import mean
+from ..session import Session, explored
 from .donut_rows import CLOSED, CORNER, DOORS, GOAL, GOAL_ROOM, MAZE, DonutRow, DonutStep
 from .imagined import imagined_paths
 
@@ -75,7 +75,7 @@ def donut_study(
 
 def donut_lines(result: DonutResult) -> list[str]:
     """What the terminal shows."""
-    from ..cli_table import number
+    from ..text import number
 
     summary = result.summary()
     total = summary["agents"]
@@ -97,7 +97,7 @@ def detour() -> int:
 
 
 def _agent(settings: Settings, seed: int) -> DonutRow:
-    session = explored("donut", MAZE, settings=settings, seed=seed, most=default_steps(MAZE))
+    session = explored("donut", MAZE, seed, settings=settings)
     if session.steps is None:
         return DonutRow(seed, session.start, None, (), False)
     session.world.displace(CORNER)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ...views import plot_maze
-from ...views.policy_plot import plot_policies
+from ...views import plot_policies, plot_world
 from .donut import DonutResult
 from .donut_rows import CLOSED, DOORS, GOAL_ROOM, MAZE, DonutRow
 
@@ -52,8 +51,7 @@ def _evenly(count: int) -> list[int]:
 
 def _draw_frame(ax: Axes, row: DonutRow, number: int) -> None:
     step = row.steps[number]
-    plot_maze({room: sight for room, sight in MAZE.sights.items() if room != CLOSED}, ax=ax)
-    _draw_square(ax, CLOSED, facecolor="white", edgecolor="0.3", hatch="////", linewidth=1.0, zorder=2)
+    plot_world(MAZE, closed=[CLOSED], ax=ax)
     _draw_square(ax, GOAL_ROOM, facecolor="none", edgecolor="#cc0000", linewidth=3.0, zorder=2.2)
     plot_policies({path.rooms: path.probability for path in step.paths}, ax=ax)
     way = row.path[: number + 1]

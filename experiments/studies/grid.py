@@ -16,7 +16,7 @@ from ...model.errors import CogmapError
 from ...worlds import MAZES
 from ..cells import Cell, Key, Row, run_cells
 from ..ledger import Ledger
-from ..walkers import CSCG
+from ..parts import CSCG
 from .grid_rows import PREDICTED, Cells
 from .saving import make_folder
 

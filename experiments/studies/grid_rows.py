@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...baselines import CscgSettings
 from ..cells import Row
-from ..walkers import CSCG
+from ..parts import CSCG
 from .json_tables import flat
 from .report import Table
 from .steps import Steps

@@ -67,7 +67,7 @@ def insight_study(
 
 def insight_lines(result: InsightResult) -> list[str]:
     """What the terminal shows."""
-    from ..cli_table import number
+    from ..text import number
 
     lines: list[str] = []
     for name, rows in (("agents", result.agents), ("controls without a map", result.controls)):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..session import mean
+from ..records import mean
 from .shares import Share, wilson
 from .tolman_maze import MAZE, ROUTES, RUNS, START, STEPS, B, Choice, TolmanRun, choice_after
 

@@ -12,10 +12,10 @@ import numpy as np
 
 from ...agent import Agent, Settings
 from ...worlds import MAZES, Label, MazeEnv, Position, shortest_path
-from ..exploring import default_steps
 from ..knowledge import Truth
 from ..pool import map_seeds
-from ..session import Session, explored, mean, std
+from ..records import mean, std
+from ..session import Session, explored
 from .imagined import imagined_paths, room_of
 from .intervals import Interval, bootstrap
 from .localisation_rows import CANDIDATE, CONDITIONS, Condition, LocalisationRow, LocalisationStep, LocalisationTrial
@@ -88,7 +88,7 @@ def localisation_study(
 
 def localisation_lines(result: LocalisationResult) -> list[str]:
     """What the terminal shows."""
-    from ..cli_table import number, spread
+    from ..text import number, spread
 
     summary = result.summary()
     lines = [
@@ -138,7 +138,7 @@ def _summary(trials: Sequence[LocalisationTrial]) -> dict[str, Any]:
 
 
 def _agent(settings: Settings, seed: int) -> LocalisationRow:
-    session = explored("localisation", MAZE, settings=settings, seed=seed, most=default_steps(MAZE))
+    session = explored("localisation", MAZE, seed, settings=settings)
     expected = session.world.position
     done = session.steps is not None
     trials = tuple(_trial(session, condition) for condition in CONDITIONS) if done else ()

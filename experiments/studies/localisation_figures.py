@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ...views import plot_maze
-from ...views.belief_plot import plot_belief
-from ...views.policy_plot import plot_policies
+from ...views import plot_belief, plot_policies, plot_world
 from ...worlds import Position
 from .localisation import MAZE, SETTINGS, LocalisationResult, by_step
 from .localisation_rows import CANDIDATE, CONDITIONS, Condition, LocalisationStep, LocalisationTrial
@@ -70,7 +68,7 @@ def _rooms(count: int) -> str:
 
 
 def _draw_imagined(step: LocalisationStep, ax: Axes) -> None:
-    plot_maze(MAZE.sights, ax=ax)
+    plot_world(MAZE, ax=ax)
     plot_policies({path.rooms: path.probability for path in step.paths}, ax=ax)
     row, column = step.room
     ax.scatter(column, row, marker="X", s=130, color="#d55e00", edgecolors="white", linewidths=1.2, zorder=6)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..cli_table import count
+from ..text import count
 from .martinet_rows import CONDITIONS, EXPECTED, MartinetResult, Preference
 from .tolman_figures import COLOURS
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ..walkers import CSCG
+from ..parts import CSCG
 from .grid_rows import VISIT, Cells
 from .intervals import Interval
 from .published import FASTER

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from ...views import plot_maze
+from ...views import plot_world
 from ...worlds import Door, Position
 from .tolman_maze import GOAL, MAZE, START, A, B
 
@@ -27,8 +27,8 @@ def plot_flow(paths: Sequence[Sequence[Position]], *, closed: Position | None, a
     """The maze with a line through each door, wider and darker the more often it was walked through."""
     from matplotlib.patches import Rectangle
 
-    plot_maze({room: sight for room, sight in MAZE.sights.items() if room != closed}, ax=ax)
-    for room in MAZE.rooms:  # paler, so that the flow stands out
+    plot_world(MAZE, closed=[] if closed is None else [closed], ax=ax)
+    for room in set(MAZE.rooms) - {closed}:  # paler, so that the flow stands out
         ax.add_patch(Rectangle((room[1] - 0.5, room[0] - 0.5), 1, 1, facecolor="white", alpha=0.5, zorder=1.5))
     counts = flow(paths)
     most = max(counts.values(), default=1)
@@ -36,10 +36,6 @@ def plot_flow(paths: Sequence[Sequence[Position]], *, closed: Position | None, a
         share = count / most
         (line,) = ax.plot([at[1], to[1]], [at[0], to[0]], zorder=2 + share, solid_capstyle="round")
         line.set(color=str(0.62 * (1.0 - share)), linewidth=0.8 + WIDEST * share)
-    if closed is not None:
-        square = Rectangle((closed[1] - 0.5, closed[0] - 0.5), 1, 1, facecolor="white", edgecolor="0.25", hatch="////")
-        square.set_zorder(4)
-        ax.add_patch(square)
     for room, name in ((START, "start"), (GOAL, "goal"), (A, "A"), (B, "B")):
         _label(ax, room, name)
     return ax

@@ -9,7 +9,7 @@ from typing import Any
 from ...agent import Agent, Settings
 from ...model import CogmapError, Priors
 from ...worlds import GRID, MAZES, Door, Label, MazeEnv, Position, shortest_path
-from ..walkers import Walker
+from ..running import Walker
 
 MAZE = MAZES["tolman"]
 START: Position = (6, 2)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ..errors import CogmapError
-from .base import Growth
+from .base import Growth, Whereabouts, place_beyond
 from .observed import ObservedGrowth
 from .predicted import PredictedGrowth
 from .static import StaticGrowth
@@ -13,18 +12,6 @@ GROWTHS: dict[str, type[Growth]] = {
     "observed": ObservedGrowth,
     "predicted": PredictedGrowth,
 }
-"""Growth strategies by name."""
+"""Growth rules by name."""
 
-
-def growth_named(name: str) -> Growth:
-    """The growth strategy of that name.
-
-    Raises:
-        CogmapError: there is none.
-    """
-    if name not in GROWTHS:
-        raise CogmapError(f"growth: {name!r} is unknown; choose one of {', '.join(GROWTHS)}")
-    return GROWTHS[name]()
-
-
-__all__ = ["GROWTHS", "Growth", "ObservedGrowth", "PredictedGrowth", "StaticGrowth", "growth_named"]
+__all__ = ["GROWTHS", "Growth", "ObservedGrowth", "PredictedGrowth", "StaticGrowth", "Whereabouts", "place_beyond"]

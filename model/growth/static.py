@@ -2,50 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
-from ..cognitive_map import CognitiveMap
 from ..errors import CogmapError
+from ..generative import GenerativeModel
+from .base import Growth, Whereabouts
 
 
-class StaticGrowth:
-    """Starts with every place, none of them connected; entering gives the next one its position."""
+class StaticGrowth(Growth):
+    """Starts with every place, none of them connected; entering gives the next one its position.
 
-    def begin(self, map_: CognitiveMap, *, places: int | None, step: int) -> list[int]:
+    Args:
+        places: how many places the world has.
+
+    Raises:
+        CogmapError: that is no whole number of 1 or more.
+    """
+
+    name = "static"
+
+    def __init__(self, places: int) -> None:
+        if isinstance(places, bool) or not isinstance(places, int) or places < 1:  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise CogmapError(f"growth: static growth cannot have {places!r} places; give the size of the world")
+        self.places = places
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """How many places."""
+        return {"places": self.places}
+
+    def begin(self, map_: GenerativeModel, *, step: int) -> list[int]:
         """All places; the first is where the agent wakes up.
 
         Raises:
-            CogmapError: the number of places is not given.
+            CogmapError: places have no positions.
         """
-        if places is None or places < 1:
-            raise CogmapError("growth: static growth needs the size of the world; set Settings.places to 1 or more")
-        new = [map_.new_place(None, step=step) for _ in range(places)]
-        map_.bind(new[0], (0,) * len(map_.motions.displacements[0]), step=step)
+        origin = map_.pose.origin
+        if origin is None:
+            raise CogmapError("growth: static growth tells places apart by their positions; give the agent a Lattice()")
+        new = [map_.new_place(step=step) for _ in range(self.places)]
+        map_.bind(new[0], origin, step=step)
         return new
 
-    def enter(self, map_: CognitiveMap, place: int, action: int, *, step: int) -> list[int]:
+    def enter(self, map_: GenerativeModel, belief: Whereabouts, action: int, *, step: int) -> list[int]:
         """Gives the place behind the door that was taken its position.
 
         Raises:
             CogmapError: every place has a position already.
         """
-        here = map_.position(place)
-        if here is None or map_.beyond(place, action) is not None:
+        here = belief.place
+        position, there = map_.pose.ahead(here, action)
+        if position is None or there is not None or map_.transitions.beyond(here, action) is not None:
             return []
-        there = map_.motions.move(here, action)
-        if map_.place_at(there) is not None:
-            return []
-        free = np.flatnonzero(map_.position_index < 0)
+        free = np.flatnonzero(map_.pose.of(np.arange(len(map_.places))) < 0)
         if not len(free):
-            size = len(map_.places)
             raise CogmapError(
-                f"growth: the world is larger than its {size} places; raise Settings.places or grow otherwise"
+                f"growth: the world is larger than its {self.places} places; give static growth more, or grow otherwise"
             )
-        map_.bind(int(free[0]), there, step=step, source=place, action=action)
+        map_.bind(int(free[0]), position, step=step, source=here, action=action)
         return [int(free[0])]
-
-    def look(self, map_: CognitiveMap, place: int, open_: Sequence[bool], *, step: int) -> list[int]:
-        """Nothing: the map cannot tell which of its places lies behind a door."""
-        return []

@@ -1,30 +1,24 @@
 """Policy generators, one a file: which action sequences to compare."""
 
-from collections.abc import Callable
+from .base import MAX_LOOK_AHEAD, MAX_POLICIES, Policies, PolicyGenerator
+from .exhaustive import Exhaustive
+from .l_shaped import LShaped
+from .map_guided import MapGuided
+from .self_avoiding import SelfAvoiding
 
-from ..reach import Reach
-from .base import Policies
-from .exhaustive import exhaustive
-from .l_shaped import l_shaped
-from .map_guided import DEFAULT_BEAM, map_guided
-from .self_avoiding import self_avoiding
-
-Generator = Callable[[Reach], Policies]
-
-GENERATORS: dict[str, Generator] = {
-    "map_guided": map_guided,
-    "self_avoiding": self_avoiding,
-    "l_shaped": l_shaped,
-    "exhaustive": exhaustive,
+POLICIES: dict[str, type[PolicyGenerator]] = {
+    generator.name: generator for generator in (MapGuided, SelfAvoiding, LShaped, Exhaustive)
 }
+"""The generators by name, for command lines and files."""
 
 __all__ = [
-    "DEFAULT_BEAM",
-    "GENERATORS",
-    "Generator",
+    "MAX_LOOK_AHEAD",
+    "MAX_POLICIES",
+    "POLICIES",
+    "Exhaustive",
+    "LShaped",
+    "MapGuided",
     "Policies",
-    "exhaustive",
-    "l_shaped",
-    "map_guided",
-    "self_avoiding",
+    "PolicyGenerator",
+    "SelfAvoiding",
 ]

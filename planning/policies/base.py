@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.errors import CogmapError
+from ...model import CogmapError, Motions
+from ..local import LocalModel, Surroundings
 from ..prefixes import Prefixes, prefixes_of
 
 Ints = NDArray[np.int64]
 MAX_POLICIES = 2_000_000
+MAX_LOOK_AHEAD = 1_000
 
 
 @dataclass(frozen=True)
@@ -66,16 +70,37 @@ def frozen(actions: Ints) -> Policies:
     return Policies(actions)
 
 
-def check_count(name: str, count: int, look_ahead: int) -> None:
-    """Refuse to list more policies than memory and patience allow."""
-    if count > MAX_POLICIES:
-        raise CogmapError(
-            f"{name}: more than {MAX_POLICIES:,} policies at look-ahead {look_ahead}; "
-            "look less far ahead, or use 'map_guided'"
-        )
+class PolicyGenerator(ABC):
+    """Makes the policies of a plan; its options are fields.
 
+    Attributes:
+        name: on the command line, in files and in errors.
+    """
 
-def check_look_ahead(name: str, look_ahead: int) -> None:
-    """Refuse to plan for no step at all."""
-    if look_ahead < 1:
-        raise CogmapError(f"{name}: look_ahead is {look_ahead}; give 1 or more steps")
+    name: ClassVar[str]
+
+    @abstractmethod
+    def make(self, model: LocalModel) -> Policies:
+        """The policies that are to be compared in this local model."""
+
+    @abstractmethod
+    def count(self, motions: Motions, look_ahead: int) -> int:
+        """How many policies it would make, at most; asked before any work is done."""
+
+    def beyond(self, around: Surroundings) -> Ints:
+        """Places further off than the look-ahead that the local model has to have; none, unless told otherwise."""
+        return around.near[:0]
+
+    def check(self, motions: Motions, look_ahead: int) -> None:
+        """Refuse to plan for no step at all, or for more policies than memory and patience allow.
+
+        Raises:
+            CogmapError: naming the generator.
+        """
+        if not 1 <= look_ahead <= MAX_LOOK_AHEAD:
+            raise CogmapError(f"{self.name}: look_ahead is {look_ahead}; give 1 to {MAX_LOOK_AHEAD:,} steps")
+        if self.count(motions, look_ahead) > MAX_POLICIES:
+            raise CogmapError(
+                f"{self.name}: more than {MAX_POLICIES:,} policies at look-ahead {look_ahead} "
+                f"with {len(motions)} actions; look less far ahead, or use 'map_guided'"
+            )

@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 
-from ..reach import Reach
-from .base import Policies, check_count, check_look_ahead, frozen
+from ...model import Motions
+from ..local import LocalModel
+from .base import Policies, PolicyGenerator, frozen
 
 
-def exhaustive(reach: Reach) -> Policies:
-    """All K^L sequences, the paper's first way to make policies.
+@dataclass(frozen=True, slots=True)
+class Exhaustive(PolicyGenerator):
+    """All K^L sequences, the paper's first way to make policies."""
 
-    Raises:
-        CogmapError: `look_ahead` is below one, or there are more than two million sequences.
-    """
-    check_look_ahead("exhaustive", reach.look_ahead)
-    return _exhaustive(len(reach.motions), reach.look_ahead)
+    name: ClassVar[str] = "exhaustive"
+
+    def make(self, model: LocalModel) -> Policies:
+        self.check(model.motions, model.look_ahead)
+        return _exhaustive(len(model.motions), model.look_ahead)
+
+    def count(self, motions: Motions, look_ahead: int) -> int:
+        return len(motions) ** look_ahead
 
 
 @lru_cache(maxsize=4)
 def _exhaustive(actions: int, look_ahead: int) -> Policies:
-    check_count("exhaustive", actions**look_ahead, look_ahead)
     digits = actions ** np.arange(look_ahead - 1, -1, -1)
     return frozen(np.arange(actions**look_ahead)[:, None] // digits % actions)

@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
+from typing import ClassVar
 
-from ...model.motions import Motions
-from ..reach import Reach
-from .base import Policies, check_look_ahead, frozen, padded
+from ...model import Motions
+from ..local import LocalModel
+from .base import Policies, PolicyGenerator, frozen, padded
 
 
-def l_shaped(reach: Reach) -> Policies:
+@dataclass(frozen=True, slots=True)
+class LShaped(PolicyGenerator):
     """Up to L steps straight or with one turn, each then staying; the paper's third way.
 
     In the grid these are exactly 4 L^2 + 1 policies. The map plays no part.
-
-    Raises:
-        CogmapError: `look_ahead` is below one.
     """
-    check_look_ahead("l_shaped", reach.look_ahead)
-    return _l_shaped(reach.motions, reach.look_ahead)
+
+    name: ClassVar[str] = "l_shaped"
+
+    def make(self, model: LocalModel) -> Policies:
+        self.check(model.motions, model.look_ahead)
+        return _l_shaped(model.motions, model.look_ahead)
+
+    def count(self, motions: Motions, look_ahead: int) -> int:
+        moves = len(motions) - 1
+        return 1 + moves * look_ahead + moves * max(moves - 2, 0) * look_ahead * (look_ahead - 1) // 2
 
 
 @lru_cache(maxsize=16)

@@ -1,36 +1,40 @@
-"""Walks grown on the map itself, towards the places that promise something."""
+"""Walks grown on the map itself, towards the places where a first visit is worth something."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from operator import itemgetter
+from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ...model.errors import CogmapError
-from ..reach import Reach
-from .base import Policies, check_look_ahead, padded
+from ...model import CogmapError, Motions
+from ..local import LocalModel, Surroundings
+from .base import MAX_POLICIES, Ints, Policies, PolicyGenerator, padded
+from .far_ways import far_ways
 
-DEFAULT_BEAM = 64
-LEAST = 1e-3  # nats; a lesser promise is none
-PROMISING = 0.1  # nor is one below this share of the greatest in reach
-GREAT = 0.5  # share of the greatest promise that a start must have within look-ahead, or it looks beyond
+Floats = NDArray[np.float64]
+LEAST = 1e-3  # nats; a first visit that is worth less is worth nothing
+SHARE = 0.1  # nor is one below this share of the greatest value in the model
+GREAT = 0.5  # share of the greatest value that a start must have within look-ahead, or it looks beyond
 HYPOTHESES = 8  # places that the agent may be at, at most
 HYPOTHESIS = 0.05  # and the belief each needs
-BEYOND = 4  # places with a great promise to head for when none is within look-ahead
+BEYOND = 4  # places of great value to head for when none is within look-ahead
 BLOCKED = 0.6  # P(blocked) from which an unknown way is not tried
 
 Path = tuple[int, ...]
-# (value of stopping here, how early it was collected, place, bit mask of promises collected, path)
+# (value of stopping here, how early it was collected, place, bit mask of first visits collected, path)
 Prefix = tuple[float, float, int, int, Path]
 # per place: masks and values of the prefixes that already lead there
 Archive = dict[int, list[tuple[int, float]]]
 
 
-def map_guided(reach: Reach, *, beam: int = DEFAULT_BEAM) -> Policies:
-    """A prefix tree over `reach.successor` from each place the agent may be at.
+@dataclass(frozen=True, slots=True)
+class MapGuided(PolicyGenerator):
+    """A prefix tree over `LocalModel.successor` from each place the agent may be at.
 
-    The value of a prefix is the promise of the places on it, each counted once, plus the utility of its
+    The value of a prefix is the first-visit value of the places on it, each counted once, plus the utility of its
     visits (staying at its end) less its risk of collision. Every kept prefix is a policy that then stays.
 
     - A walk may return on its track (dead ends need it), and never tries a way known to be blocked.
@@ -38,33 +42,57 @@ def map_guided(reach: Reach, *, beam: int = DEFAULT_BEAM) -> Policies:
       it has, and is worth as much.
     - Of what is left, each level keeps the `beam` best by value, then by how early it was collected.
     - Beside each place the best prefix may end with one step through a way that the map knows nothing of.
-    - If a start has no great promise within `look_ahead`, the shortest paths to the nearest places
+    - If a start has no place of great value within `look_ahead`, the shortest paths to the nearest places
       beyond that have one are added, so L may exceed `look_ahead`.
 
-    Args:
-        reach: the tables within reach.
+    `Policies.cut` is the number of prefixes that the beam dropped.
+
+    Attributes:
         beam: prefixes kept a level, shared by the starts.
 
-    Returns:
-        Policies, `cut` the number of prefixes that the beam dropped.
-
     Raises:
-        CogmapError: `beam` or `look_ahead` is below one.
+        CogmapError: `beam` is no whole number of 1 or more.
     """
-    check_look_ahead("map_guided", reach.look_ahead)
-    if beam < 1:
-        raise CogmapError(f"map_guided: beam is {beam}; give 1 or more")
-    skeleton = _Skeleton.of(reach)
-    starts = _starts(reach)
-    paths: list[Path] = []
-    cut = 0
-    for start in starts:
-        grown, dropped, found = _grow(skeleton, start, reach.look_ahead, max(1, beam // len(starts)))
-        paths += grown
-        cut += dropped
-        if not found:
-            paths += _beyond(skeleton, start)
-    return Policies(padded(paths, stay=reach.motions.stay, length=reach.look_ahead), cut)
+
+    name: ClassVar[str] = "map_guided"
+    beam: int = 64
+
+    def __post_init__(self) -> None:
+        if not (isinstance(self.beam, int | np.integer) and self.beam >= 1):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise CogmapError(f"map_guided: beam is {self.beam!r}; give a whole number of 1 or more")
+
+    def make(self, model: LocalModel) -> Policies:
+        self.check(model.motions, model.look_ahead)
+        skeleton, starts = _Skeleton.of(model), _starts(model)
+        beam = max(1, self._width(model.motions, model.look_ahead) // len(starts))
+        paths: list[Path] = []
+        cut = 0
+        for start in starts:
+            grown, dropped, found = _grow(skeleton, start, model.look_ahead, beam)
+            paths += grown
+            cut += dropped
+            if not found:
+                paths += _beyond(skeleton, start)
+        return Policies(padded(paths, stay=model.motions.stay, length=model.look_ahead), cut)
+
+    def count(self, motions: Motions, look_ahead: int) -> int:
+        return 1 + look_ahead * len(motions) * self._width(motions, look_ahead)
+
+    def _width(self, motions: Motions, look_ahead: int) -> int:
+        """Prefixes kept a level, so that a beam of any width is within the bound on policies."""
+        return min(self.beam, max(1, (MAX_POLICIES - 1) // (look_ahead * len(motions))))
+
+    def beyond(self, around: Surroundings) -> Ints:
+        return far_ways(around)
+
+
+def first_visit_value(model: LocalModel) -> Floats:
+    """`[R]` what a first visit is worth, in nats: what it teaches of the sight, and what is preferred there."""
+    value = model.information_weight * model.information["sight"][:, 1] + np.maximum(model.log_C_place, 0.0)
+    if model.log_C.any():  # by how much the sights of a place are preferred over any
+        mean = (model.log_C @ model.multiplicity) / model.multiplicity.sum()
+        value += np.maximum(model.log_C @ model.A - mean, 0.0)
+    return value
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,47 +100,47 @@ class _Skeleton:
     """The map as lists, which are quicker than arrays one element at a time.
 
     `ways[i]` holds (action, place it leads to, risk in nats), `unknown[i]` actions that lead nobody knows
-    where, `bit[i]` is the place's bit (0: promises nothing), `promise[i]` and `utility[i]` are in nats,
-    and a promise of `great` nats is worth going beyond the look-ahead.
+    where, `bit[i]` is the place's bit (0: worth nothing), `value[i]` of a first visit and `utility[i]` are in nats,
+    and a value of `great` nats is worth going beyond the look-ahead.
     """
 
     ways: list[list[tuple[int, int, float]]]
     unknown: list[list[int]]
     bit: list[int]
-    promise: list[float]
+    value: list[float]
     utility: list[float]
     great: float
 
     @classmethod
-    def of(cls, reach: Reach) -> _Skeleton:
-        successor, moves = reach.successor, np.arange(len(reach.motions)) != reach.motions.stay
+    def of(cls, model: LocalModel) -> _Skeleton:
+        successor, moves = model.successor, np.arange(len(model.motions)) != model.motions.stay
         ways: list[list[tuple[int, int, float]]] = [[] for _ in successor]
         unknown: list[list[int]] = [[] for _ in successor]
         known = (successor >= 0) & (successor != np.arange(len(successor))[:, None]) & moves
         place, action = np.nonzero(known)
-        risk = reach.collision[place, action] * reach.collision_cost
+        risk = model.blocked[place, action] * model.collision_cost
         rows = zip(place.tolist(), action.tolist(), successor[place, action].tolist(), risk.tolist(), strict=True)
         for i, a, after, nats in rows:
             ways[i].append((a, after, nats))
-        place, action = np.nonzero((successor < 0) & (reach.collision < BLOCKED) & moves)
+        place, action = np.nonzero((successor < 0) & (model.blocked < BLOCKED) & moves)
         for i, a in zip(place.tolist(), action.tolist(), strict=True):
             unknown[i].append(a)
-        greatest = float(reach.promise.max())
-        floor = max(PROMISING * greatest, LEAST)
-        promise = reach.promise.tolist()
-        bit = [1 << i if worth > floor else 0 for i, worth in enumerate(promise)]
-        return cls(ways, unknown, bit, promise, reach.utility.tolist(), max(GREAT * greatest, LEAST))
+        value = first_visit_value(model)
+        greatest = float(value.max())
+        floor = max(SHARE * greatest, LEAST)
+        bit = [1 << i if worth > floor else 0 for i, worth in enumerate(value.tolist())]
+        return cls(ways, unknown, bit, value.tolist(), model.utility.tolist(), max(GREAT * greatest, LEAST))
 
 
-def _starts(reach: Reach) -> list[int]:
+def _starts(model: LocalModel) -> list[int]:
     """The places the agent may be at, the most probable first."""
-    order = np.argsort(-reach.belief, kind="stable")[:HYPOTHESES].tolist()
-    least = min(HYPOTHESIS, float(reach.belief[order[0]]) / 2)
-    return [i for i in order if reach.belief[i] >= least]
+    order = np.argsort(-model.belief, kind="stable")[:HYPOTHESES].tolist()
+    least = min(HYPOTHESIS, float(model.belief[order[0]]) / 2)
+    return [i for i in order if model.belief[i] >= least]
 
 
 def _grow(skeleton: _Skeleton, start: int, look_ahead: int, beam: int) -> tuple[list[Path], int, bool]:
-    """The paths from `start`, the prefixes that the beam dropped, and whether a great promise was among them."""
+    """The paths from `start`, the prefixes that the beam dropped, and whether a place of great value was among them."""
     first: Prefix = (look_ahead * skeleton.utility[start], 0.0, start, skeleton.bit[start], ())
     archive: Archive = {start: [(first[3], first[0])]}
     level, paths, cut, found = [first], [()], 0, False
@@ -123,20 +151,20 @@ def _grow(skeleton: _Skeleton, start: int, look_ahead: int, beam: int) -> tuple[
         cut += dropped
         paths += [prefix[4] for prefix in level]
         ends = {prefix[2] for prefix in level} - {start}
-        found = found or any(skeleton.promise[place] >= skeleton.great for place in ends)
+        found = found or any(skeleton.value[place] >= skeleton.great for place in ends)
     return paths, cut, found
 
 
 def _children(skeleton: _Skeleton, level: list[Prefix], left: int) -> list[Prefix]:
     """Each prefix by one step, `left` steps before the end."""
-    ways, bit, promise, utility = skeleton.ways, skeleton.bit, skeleton.promise, skeleton.utility
+    ways, bit, first, utility = skeleton.ways, skeleton.bit, skeleton.value, skeleton.utility
     children: list[Prefix] = []
     for value, early, place, mask, path in level:
         base = value - left * utility[place]
         for action, after, risk in ways[place]:
             worth = base + left * utility[after] - risk
             if bit[after] & ~mask:
-                gain = promise[after]
+                gain = first[after]
                 child = (worth + gain, early + left * gain, after, mask | bit[after], (*path, action))
             else:
                 child = (worth, early, after, mask, (*path, action))
@@ -174,7 +202,7 @@ def _into_the_unknown(skeleton: _Skeleton, level: list[Prefix]) -> list[Path]:
 
 
 def _beyond(skeleton: _Skeleton, start: int) -> list[Path]:
-    """Shortest paths to the nearest great promises; if there are none, into the nearest unknown ways."""
+    """Shortest paths to the nearest places of great value; if there are none, into the nearest unknown ways."""
     shortest: dict[int, Path] = {start: ()}
     queue = [start]
     for place in queue:
@@ -183,6 +211,6 @@ def _beyond(skeleton: _Skeleton, start: int) -> list[Path]:
                 shortest[after] = (*shortest[place], action)
                 queue.append(after)
     del shortest[start]
-    promising = [path for place, path in shortest.items() if skeleton.promise[place] >= skeleton.great]
+    worthy = [path for place, path in shortest.items() if skeleton.value[place] >= skeleton.great]
     unknown = [(*path, a) for place, path in shortest.items() for a in skeleton.unknown[place]]
-    return (promising or unknown)[:BEYOND]
+    return (worthy or unknown)[:BEYOND]

@@ -2,25 +2,34 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 
-from ...model.motions import Motions
-from ..reach import Reach
-from .base import Ints, Policies, check_count, check_look_ahead, frozen
+from ...model import Motions
+from ..local import LocalModel
+from .base import Ints, Policies, PolicyGenerator, frozen
 
 
-def self_avoiding(reach: Reach) -> Policies:
+@dataclass(frozen=True, slots=True)
+class SelfAvoiding(PolicyGenerator):
     """Self-avoiding walks of 0..L steps in Z^n, each then staying; the paper's second way.
 
     In the grid these are 5, 17, 53, 153, 437, 1217, 3389 policies for L = 1..7. The map plays no part.
-
-    Raises:
-        CogmapError: `look_ahead` is below one, or there are more than two million walks.
     """
-    check_look_ahead("self_avoiding", reach.look_ahead)
-    return _self_avoiding(reach.motions, reach.look_ahead)
+
+    name: ClassVar[str] = "self_avoiding"
+
+    def make(self, model: LocalModel) -> Policies:
+        self.check(model.motions, model.look_ahead)
+        return _self_avoiding(model.motions, model.look_ahead)
+
+    def count(self, motions: Motions, look_ahead: int) -> int:
+        """Walks that never turn straight back, of which the self-avoiding ones are a part."""
+        moves = len(motions) - 1
+        return 1 + sum(moves * max(moves - 1, 1) ** (length - 1) for length in range(1, look_ahead + 1))
 
 
 @lru_cache(maxsize=16)
@@ -31,7 +40,6 @@ def _self_avoiding(motions: Motions, look_ahead: int) -> Policies:
     walks = np.full((1, look_ahead), motions.stay, dtype=np.int64)
     levels: list[Ints] = [walks]
     for depth in range(look_ahead if len(moves) else 0):
-        check_count("self_avoiding", sum(map(len, levels)) + len(walks), look_ahead)
         ends = tracks[:, -1:, :] + steps
         fresh = (ends[:, :, None, :] != tracks[:, None, :, :]).any(-1).all(-1)
         walk, move = np.nonzero(fresh)

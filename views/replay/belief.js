@@ -1,8 +1,8 @@
 // The belief over places as bars.
 function drawBelief(frame) {
   const rows = frame.belief.map(([place, q]) => {
-    const { sight, visited } = map.places[place];
-    const look = visited && sight != null ? R.looks[sight] : null;
+    const { look: seen_, visited } = map.places[place];
+    const look = visited && seen_ != null ? R.looks[seen_] : null;
     return [placeName(place), q, look];
   });
   if (frame.rest > 0.0005) rows.push(["all others", frame.rest, null]);

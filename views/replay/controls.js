@@ -12,7 +12,7 @@ function go(index) {
   $("slider").setAttribute("aria-valuetext", `step ${frame.step}, ${index + 1} of ${F.length}`);
   $("count").textContent = `${index + 1} / ${F.length}`;
   drawMap(index);
-  drawMaze(index);
+  drawWorld(index);
   drawWords(frame);
   drawBelief(frame);
   drawPolicies(frame);
@@ -68,7 +68,7 @@ function begin() {
   document.addEventListener("keydown", key);
   measureMaps();
   readWindows();
-  prepareMaze();
+  prepareWorld();
   prepareMap();
   preparePolicies();
   layTimes();

@@ -5,7 +5,7 @@ const ACTIONS = R.motions.names;
 const ARROWS = ACTIONS.map((name, action) => arrow(R.motions.displacements[action], name));
 
 function arrow(vector, name) {
-  const [down, right] = flat(vector);
+  const [down, right] = vector ? flat(vector) : [9, 9];
   if (Math.abs(down) + Math.abs(right) === 0) return "·";
   if (Math.abs(down) + Math.abs(right) > 1) return name.slice(0, 1);
   return down < 0 ? "↑" : down > 0 ? "↓" : right < 0 ? "←" : "→";
@@ -29,7 +29,8 @@ function change(delta) {
   }
   for (const [place, position, visited, sight, p] of delta.places || []) {
     const since = map.places[place] ? map.places[place].since : map.at;
-    map.places[place] = { position: position && flat(position), exact: position, visited, sight, p, since };
+    const cell = R.layout ? R.layout[place] : position && flat(position);
+    map.places[place] = { position: cell, exact: position, visited, look: sight == null ? null : R.sights[sight], p, since };
   }
   for (const [place, action, known, ...ways] of delta.ways || []) {
     const pairs = [];
@@ -53,7 +54,11 @@ function mapAt(index) {
 }
 
 // Where the agent is in truth, in its own coordinates; null where that is not known.
-const truth = (frame) => (R.origin && frame.at ? frame.at.map((x, i) => x - R.origin[i]) : null);
+const vector = (place) => (place && place.tuple && place.tuple.every((x) => typeof x === "number") ? place.tuple : null);
+function truth(frame) {
+  const [here, origin] = [frame.at, R.origin].map((place) => (place == null ? null : vector(R.places[place])));
+  return here && origin && here.map((x, i) => x - origin[i]);
+}
 const same = (a, b) => a.length === b.length && a.every((x, i) => x === b[i]);
 
 // All cells of the map at any step: the picture keeps its scale.

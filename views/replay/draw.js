@@ -34,4 +34,9 @@ const flat = (position) => (position.length === 1 ? [0, position[0]] : position)
 const tuple = (values) => `(${values.map((x) => minus(String(x))).join(",\u00a0")})`;
 
 // Font size at which a text fits into a box, in units of the picture.
-const fitting = (text, width, height) => Math.min(height, width / (0.62 * Math.max(Array.from(text).length, 1)));
+const pen = document.createElement("canvas").getContext("2d"), widths = new Map();
+pen.font = "600 100px system-ui, sans-serif"; // as bold as names are
+function fitting(text, width, height) {
+  if (!widths.has(text)) widths.set(text, Math.max(pen.measureText(text).width / 100, 0.62));
+  return Math.min(height, width / widths.get(text));
+}

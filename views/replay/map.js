@@ -3,8 +3,8 @@ const LEAST = 0.05, RADIUS = 10;
 let mapBox = null, mapPicture = null, mapCell = 0;
 
 function prepareMap() {
-  const cells = [];
-  for (const frame of F) for (const [, position] of frame.map.places || []) if (position) cells.push(flat(position));
+  const cells = R.layout || [];
+  for (const frame of R.layout ? [] : F) for (const [, position] of frame.map.places || []) if (position) cells.push(flat(position));
   mapBox = bounds(cells);
   mapPicture = picture("map", "The map, as it is believed", [-4, -4, mapBox.columns * CELL + 8, mapBox.rows * CELL + 8]);
 }
@@ -22,15 +22,15 @@ function waysAndWalls() {
   for (const { place, action, known, pairs } of map.ways.values()) {
     const here = map.places[place].position;
     if (!here || action === R.motions.stay) continue;
-    const [x, y] = centre(here), [down, right] = flat(R.motions.displacements[action]);
+    const [x, y] = centre(here), vector = R.layout ? null : R.motions.displacements[action], [down, right] = vector ? flat(vector) : [0, 0];
     for (const [there, p] of pairs) {
       if (p < LEAST) continue;
-      if (there === place) {
+      if (there === place && vector) {
         const [cx, cy] = [x + 0.42 * CELL * right, y + 0.42 * CELL * down];
         const [wx, wy] = [0.22 * CELL * Math.sign(down), 0.22 * CELL * Math.sign(right)];
         const line = { x1: cx - wx, y1: cy - wy, x2: cx + wx, y2: cy + wy };
         walls.push(shape("line", { ...line, class: `wall ${known}`, "stroke-width": 1 + 3 * p, opacity: (0.25 + 0.75 * p).toFixed(2) }));
-      } else if (map.places[there] && map.places[there].position) {
+      } else if (there !== place && map.places[there] && map.places[there].position) {
         const [ex, ey] = centre(map.places[there].position);
         const line = { x1: x, y1: y, x2: (x + ex) / 2, y2: (y + ey) / 2 };
         ways.push(shape("line", { ...line, class: `way ${known}`, "stroke-width": (0.8 + 3.2 * p).toFixed(2), opacity: (0.15 + 0.85 * p).toFixed(2) }));
@@ -42,11 +42,11 @@ function waysAndWalls() {
 
 function placeMarks(index) {
   const parts = [], size = mapCell;
-  map.places.forEach(({ position, visited, sight, p, since }, place) => {
+  map.places.forEach(({ position, visited, look: seen_, p, since }, place) => {
     if (!position) return;
     const [x, y] = centre(position);
     const fresh = since === index ? " fresh" : "";
-    const look = visited && sight != null ? R.looks[sight] : null;
+    const look = visited && seen_ != null ? R.looks[seen_] : null;
     const marks = [shape("title", {}, placeName(place) + (look ? `: ${look[0]} (${percent(p)})` : ", imagined"))];
     marks.push(shape("circle", { cx: x, cy: y, r: RADIUS, fill: look && look[1], class: (look ? "place" : "place hollow") + fresh }));
     if (look && size >= 20) {

@@ -8,19 +8,18 @@ import html
 import json
 import re
 from collections.abc import Hashable
+from dataclasses import replace
 from importlib.resources import files
 from typing import Any
 
-from ...model.errors import CogmapError
-from ...model.labels import decode
-from ..colours import RGB, ink_on, sight_colour
+from ...model import CogmapError, decode
+from ..axes import Cell
+from ..map_picture import MapPicture
 from ..recording import Recording
+from ..theme import hexed, ink_on, sight_colour
 
-SCRIPTS = ("draw", "data", "words", "maze", "map", "belief", "policies", "times", "window", "controls")
-"""Parts of the script, in the order in which they follow each other."""
-
-DRAWN = (1, 2)
-"""Dimensions that can be drawn."""
+SCRIPTS = ("draw", "data", "words", "world", "map", "belief", "policies", "times", "window", "controls")
+DRAWN = (1, 2)  # dimensions that can be drawn
 
 
 def replay_html(recording: Recording) -> str:
@@ -32,7 +31,8 @@ def replay_html(recording: Recording) -> str:
     Raises:
         CogmapError: positions of more than two dimensions.
     """
-    dimensions = len(recording.data["motions"]["displacements"][0])
+    displacements = recording.data["motions"]["displacements"]
+    dimensions = len(displacements[0]) if displacements else DRAWN[-1]
     if dimensions not in DRAWN:
         raise CogmapError(f"replay: positions have {dimensions} dimensions; only 1 or 2 can be drawn")
     script = "\n".join(["(() => {", '"use strict";', *(_asset(f"{name}.js") for name in SCRIPTS), "})();"])
@@ -64,34 +64,42 @@ def _embedded(value: Any) -> str:
 
 
 def _content(recording: Recording) -> dict[str, Any]:
-    """The recording, with the labels as texts in their colours."""
-    data, looks = recording.data, _Looks()
-    for label in recording.sights:
-        looks.number(label)
-    kept = ("title", "motions", "terms", "known", "origin", "frames")
-    return {
+    """The recording, with the labels as texts in their colours, by number."""
+    data, numbers = recording.data, dict[Hashable, int]()
+
+    def number(label: Any) -> int:
+        return numbers.setdefault(decode(label), len(numbers))
+
+    world = data["world"]
+    kept = ("title", "motions", "terms", "known", "places", "origin")
+    content = {
         **{name: data[name] for name in kept},
         "threshold": data["settings"]["certainty"],
-        "maze": data["maze"] and [[row, column, looks.number(decode(label))] for row, column, label in data["maze"]],
-        "goals": [looks.number(decode(label)) for label in data["goals"]],
-        "looks": looks.all,
+        "sights": [number(label) for label in data["sights"]],
+        "frames": [
+            {**frame, "seen": {sensor: number(label) for sensor, label in frame["seen"].items()}}
+            for frame in data["frames"]
+        ],
+        "world": world and {**world, "places": [[*cell, number(label)] for *cell, label in world["places"]]},
+        "goals": [number(label) for label in data["goals"]],
+        "layout": _layout(recording),
     }
+    return content | {"looks": [_look(label) for label in numbers]}
 
 
-class _Looks:
-    """Text, colour and ink of each label; a label of the recording keeps its number."""
-
-    def __init__(self) -> None:
-        self.all: list[tuple[str, str, str]] = []
-        self._numbers: dict[Hashable, int] = {}
-
-    def number(self, label: Hashable) -> int:
-        if label not in self._numbers:
-            self._numbers[label] = len(self.all)
-            colour = sight_colour(label)
-            self.all.append((str(label), _hex(colour), "#000" if ink_on(colour) == "black" else "#fff"))
-        return self._numbers[label]
+def _layout(recording: Recording) -> list[Cell] | None:
+    """Where the places of a map without positions are drawn, by number."""
+    largest = MapPicture.recorded(recording.data)
+    for picture in recording.maps():
+        if picture.located:
+            return None
+        if len(picture.places) >= len(largest.places):
+            largest = replace(picture, places=[*picture.places], rows={**picture.rows})
+    cells = largest.cells
+    return [cells[place] for place in sorted(cells)]
 
 
-def _hex(colour: RGB) -> str:
-    return "#" + "".join(f"{round(255 * part):02x}" for part in colour)
+def _look(label: Hashable) -> tuple[str, str, str]:
+    """Text, colour and ink of a label."""
+    colour = sight_colour(label)
+    return str(label), hexed(colour), "#000" if ink_on(colour) == "black" else "#fff"

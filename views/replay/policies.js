@@ -2,7 +2,7 @@
 const SHOWN = 10;
 let tableOpen = false;
 
-const signed = (terms) => terms.map((x, i) => sign(R.terms[i]) * x);
+const signed = (terms) => terms.map((x, i) => R.terms[i].sign * x);
 
 // Terms that lower G to the left of zero, terms that raise it to the right, on one scale for all.
 function termBar(terms, scale) {
@@ -12,7 +12,7 @@ function termBar(terms, scale) {
     const width = Math.abs(x) * scale.unit;
     if (width < 0.05) return;
     if (x < 0) left -= width;
-    parts.push(shape("rect", { x: x < 0 ? left : right, y: 1, width, height: 8, class: "term " + R.terms[i] }));
+    parts.push(shape("rect", { x: x < 0 ? left : right, y: 1, width, height: 8, fill: R.terms[i].colour, class: "term" }));
     if (x > 0) right += width;
   });
   parts.push(shape("line", { x1: scale.zero, x2: scale.zero, y1: 0, y2: 10, class: "zero" }));
@@ -42,14 +42,14 @@ function policyRows(plan) {
 function termLegend(plan) {
   const terms = signed(plan.terms[plan.chosen]);
   return el("ul", { class: "terms" }, R.terms.map((term, i) => el("li", {}, [
-    shape("svg", { viewBox: "0 0 10 10", class: "swatch", "aria-hidden": "true" }, shape("rect", { width: 10, height: 10, class: "term " + term })),
-    el("span", { class: "name" }, nameOf(term)),
+    shape("svg", { viewBox: "0 0 10 10", class: "swatch", "aria-hidden": "true" }, shape("rect", { width: 10, height: 10, fill: term.colour, class: "term" })),
+    el("span", { class: "name" }, term.label),
     el("span", { class: "value" }, number(terms[i])),
   ])));
 }
 
 function numbers(plan) {
-  const head = el("tr", {}, ["policy", "P", "G", ...R.terms.map(nameOf)].map((name) => el("th", { scope: "col" }, name)));
+  const head = el("tr", {}, ["policy", "P", "G", ...R.terms.map((term) => term.label)].map((name) => el("th", { scope: "col" }, name)));
   const rows = plan.policies.map((policy, i) => el("tr", { class: i === plan.chosen ? "chosen" : null }, [
     el("th", { scope: "row" }, route(policy)),
     ...[number(plan.P[i], 4), number(plan.G[i], 3), ...signed(plan.terms[i]).map((x) => number(x, 3))].map((x) => el("td", {}, x)),

@@ -1,7 +1,8 @@
 // The factor graph of the window, laid out in time: observed variables grey, latent ones white, factors square.
-const WIDEST = 124, NARROWEST = 108, ROWS = { p: 40, s: 150, moved: 95, o: 228, c: 228 }, GRAPH = 256, MARGIN = 56;
-const variables = new Map(), factors = [], tops = [];
-let windowPicture = null, windowWidth = 0, column = WIDEST;
+const WIDEST = 124, NARROWEST = 108, ROW = 110, MARGIN = 56;
+const WORDS = { s: "place", p: "position", o: "sight", c: "doors", moved: "whether it was put elsewhere" };
+const variables = new Map(), factors = [], tops = [], spots = new Map();
+let windowPicture = null, windowWidth = 0, column = WIDEST, windowHeight = 0;
 
 function readWindows() {
   const latest = new Map();
@@ -16,6 +17,31 @@ function readWindows() {
   for (const factor of factors) factor.time = Math.max(...factor.scope.map((name) => variables.get(name).time));
   factors.sort((a, b) => a.time - b.time);
   tops.push(latest);
+  readKinds();
+}
+
+const ofKind = (name) => name.replace(/\d+$/, "");
+
+// Where each kind of variable stands in the column of its step: those that last in rows, what is observed below them,
+// what decides on a transition, such as `moved`, between two columns.
+function readKinds() {
+  const lasting = new Set(), observed = new Set(), others = new Set();
+  for (const factor of factors) {
+    const kinds = factor.scope.map(ofKind);
+    factor.lasting = kinds.length > 1 && kinds[0] === kinds[1];
+    if (factor.lasting) lasting.add(kinds[0]);
+  }
+  for (const { name, observed: seen_ } of variables.values()) {
+    const kind = ofKind(name);
+    if (seen_) observed.add(kind);
+    else if (!lasting.has(kind)) others.add(kind);
+  }
+  if (!lasting.size) for (const kind of others) if (kind !== "moved" && lasting.add(kind)) others.delete(kind); // one step alone
+  const rows = [...lasting].sort((a, b) => "ps".indexOf(a) - "ps".indexOf(b)), below = 40 + ROW * (Math.max(rows.length, 2) - 1) + 78;
+  rows.forEach((kind, i) => spots.set(kind, { aside: 0, y: 40 + i * ROW }));
+  for (const kind of others) spots.set(kind, { aside: null, y: 40 + ROW / 2 });
+  [...observed].forEach((kind, i, all) => spots.set(kind, { aside: all.length === 1 ? 0 : i % 2 ? 22 : -22, y: below + 52 * (i >> 1), observed: true }));
+  windowHeight = below + 52 * Math.max((observed.size - 1) >> 1, 0) + 28;
 }
 
 // What was believed of a variable at a step: the last that was told up to then.
@@ -25,31 +51,31 @@ function topAt(name, index) {
   return null;
 }
 
-const ofKind = (name) => name.replace(/\d+$/, "");
+const between = (kind) => spots.get(kind).aside == null;
 
 function spot(name, x) {
-  const kind = ofKind(name);
-  const aside = kind === "o" ? -22 : kind === "c" ? 22 : kind === "moved" ? -column / 2 : 0;
-  return [x + aside, ROWS[kind] ?? ROWS.s];
+  const { aside, y } = spots.get(ofKind(name));
+  return [x + (aside ?? -column / 2), y];
 }
 
 function factorSpot(factor, places) {
-  const points = factor.scope.map((name) => places.get(name));
+  const points = factor.scope.map((name) => places.get(name)), [[x, y]] = points, first = ofKind(factor.scope[0]);
   const mean = (i) => points.reduce((sum, point) => sum + point[i], 0) / points.length;
-  const [x, y] = points[0];
-  if (factor.kind === "transition" || factor.kind === "motion") return [x - column / 2, y];
-  if (factor.kind === "displacement") return [x + 40, y];
-  if (factor.kind === "sight" || factor.kind === "walls") return [x, y - 36];
+  if (factor.lasting) return [x - column / 2, y];
+  if (points.length === 1 && between(first)) return [x + 40, y];
+  if (spots.get(first).observed) return [x, y - 36];
   return [mean(0), mean(1)];
 }
 
 const openWays = (seen_) => {
-  const ways = seen_.tuple.map((is, action) => (is && action !== R.motions.stay ? ARROWS[action] : "")).join("");
+  const ways = seen_.map((is, action) => (is && action !== R.motions.stay ? ARROWS[action] : "")).join("");
   return ways || "none";
 };
 
 function variableText(variable, index) {
-  if (variable.observed) return ofKind(variable.name) === "c" && variable.seen.tuple ? openWays(variable.seen) : clipped(said(variable.seen), 7);
+  const ways = variable.observed && variable.seen && variable.seen.tuple;
+  if (ways && ways.length && ways.every((is) => typeof is === "boolean")) return openWays(ways);
+  if (variable.observed) return clipped(said(variable.seen), 7);
   const top = topAt(variable.name, index);
   if (!top) return "";
   return typeof top[1] === "boolean" ? (top[1] ? "yes" : "no") : said(top[1]).replace(/[ ()]/g, "");
@@ -61,16 +87,16 @@ function odds(variable, index) {
   return top && top[2] < 0.995 ? number(top[2]) : "";
 }
 
-function factorName({ name, kind }, x, y) {
-  const above = { motion: -9, displacement: -9, transition: 17 }[kind];
-  if (above) return shape("text", { x, y: y + above, class: "factor-name middle" }, name);
-  if (kind === "sight") return shape("text", { x: x - 8, y: y + 4, class: "factor-name end" }, name);
-  return shape("text", { x: x + (kind === "walls" ? 8 : 6), y: y + (kind === "walls" ? 4 : -6), class: "factor-name" }, name);
+function factorName({ name, scope, lasting }, x, y) {
+  const first = ofKind(scope[0]), { aside, observed, y: row } = spots.get(first);
+  if (lasting || (scope.length === 1 && between(first))) return shape("text", { x, y: y + (lasting && row > 40 ? 17 : -9), class: "factor-name middle" }, name);
+  if (observed && aside < 0) return shape("text", { x: x - 8, y: y + 4, class: "factor-name end" }, name);
+  return shape("text", { x: x + (observed ? 8 : 6), y: y + (observed ? 4 : -6), class: "factor-name" }, name);
 }
 
 function layWindow() {
   windowWidth = Math.max($("window").clientWidth, 240);
-  windowPicture = picture("window", "The factor graph of the window", [0, 0, windowWidth, GRAPH]);
+  windowPicture = picture("window", "The factor graph of the window", [0, 0, windowWidth, windowHeight]);
 }
 
 // The variables and factors of the last `most` steps of the window.
@@ -79,7 +105,7 @@ function windowAt(index, most) {
   const active = factors.filter((f) => f.time <= frame.step && (f.kind === "prior" ? f.time === since : f.time > since));
   const first = Math.max(since, frame.step - most + 1);
   const shown = active.filter((f) => f.scope.every((name) => variables.get(name).time >= first)
-    && !(f.kind === "displacement" && f.time === first)); // what it acts on is not shown
+    && !(f.time === first && f.scope.length === 1 && between(ofKind(f.scope[0])))); // what it acts on is not shown
   return { since, first, shown, names: [...new Set(shown.flatMap((f) => f.scope))] };
 }
 
@@ -105,7 +131,7 @@ function drawWindow(index) {
     ]));
   }
   for (const name of names) {
-    const variable = variables.get(name), [x, y] = places.get(name), small = ofKind(name) === "moved";
+    const variable = variables.get(name), [x, y] = places.get(name), small = between(ofKind(name));
     const value = clipped(variableText(variable, index), 8);
     marks.push(shape("g", { class: "variable" + (variable.observed ? " observed" : ""), "data-variable": name }, [
       shape("title", {}, `${name}: ${variableText(variable, index)} ${odds(variable, index)}`),
@@ -118,5 +144,5 @@ function drawWindow(index) {
   windowPicture.layer.replaceChildren(...lines, ...marks);
   windowPicture.about.textContent = `Steps ${first} to ${frame.step}: ${plural(names.length, "variable")} and ${plural(shown.length, "factor")}.`;
   $("window-legend").textContent = `Steps ${since} to ${frame.step}${first > since ? `, from ${first} on shown here` : ""}. White: latent, with the most probable value; `
-    + "grey: observed. s: place, p: position, o: sight, c: doors, moved: whether it was put elsewhere.";
+    + `grey: observed. ${[...spots.keys()].map((kind) => `${kind}: ${WORDS[kind] || kind}`).join(", ")}.`;
 }

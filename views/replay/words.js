@@ -1,24 +1,4 @@
 // A step in words.
-const WHY = {
-  state_information: "to find out where it is",
-  sight_information: "to see what places look like",
-  position_information: "to learn where places lie",
-  transition_information: "to learn where ways lead",
-  utility: "for what it prefers",
-  collision: "to keep clear of walls",
-};
-const NAMES = {
-  state_information: "where it is",
-  sight_information: "what places look like",
-  position_information: "where places lie",
-  transition_information: "where ways lead",
-  utility: "preferences",
-  collision: "collisions",
-};
-const nameOf = (term) => NAMES[term] || term.replaceAll("_", " ");
-// G = collision - information - utility
-const sign = (term) => (term === "collision" ? 1 : -1);
-
 // "up 2×, left, up"
 function route(policy) {
   const runs = [];
@@ -37,7 +17,9 @@ function placeName(place) {
 
 function seen(frame) {
   const open = ACTIONS.filter((_, action) => frame.open[action] && action !== R.motions.stay);
-  return `Step ${frame.step}. It sees ${clipped(R.looks[frame.sight][0], 40)}; ${open.length ? "open: " + open.join(", ") : "no way is open"}.`;
+  const labels = Object.entries(frame.seen).map(([sensor, seen_]) => [sensor, clipped(R.looks[seen_][0], 40)]);
+  const what = labels.length === 1 ? `sees ${labels[0][1]}` : `senses ${labels.map((pair) => pair.join(" ")).join(", ")}`;
+  return `Step ${frame.step}. It ${what}; ${open.length ? "open: " + open.join(", ") : "no way is open"}.`;
 }
 
 function believed(frame) {
@@ -46,6 +28,7 @@ function believed(frame) {
   let where = `It takes itself to be in ${placeName(place)} (${percent(q)})`;
   if (!frame.certain && second) where += `, or in ${placeName(second[0])} (${percent(second[1])})`;
   if (real && exact) where += same(real, exact) ? ", and is right" : `; in truth it is at ${tuple(real)}`;
+  else if (!real && frame.at != null) where += `; in truth it is at ${said(R.places[frame.at])}`;
   if (!frame.certain) where += "; too uncertain to learn";
   return where + ".";
 }
@@ -64,12 +47,12 @@ function changed(frame) {
 
 function chosen(frame) {
   const plan = frame.plan, terms = plan.terms[plan.chosen];
-  const better = terms.map((x, i) => -sign(R.terms[i]) * (x - plan.mean[i]));
-  const best = better.reduce((top, x, i) => (x > better[top] ? i : top), 0);
+  const better = terms.map((x, i) => -R.terms[i].sign * (x - plan.mean[i]));
+  const best = better.reduce((top, x, i) => (x > better[top] ? i : top), 0), term = R.terms[best];
   const least = plan.G[plan.chosen] - plan.G[0] <= 0.002;
   const among = !least ? "not quite the best" : plan.ties > 1 ? `one of ${plan.ties} equally good` : "the best";
   const why = better[best] > 0.005
-    ? `most of all ${WHY[R.terms[best]] || nameOf(R.terms[best])} (${number(better[best])} nats better than the average policy)`
+    ? `most of all for ${term.sign > 0 ? "less" : "its"} ${term.meaning} (${number(better[best])} nats better than the average policy)`
     : "none promises more than another";
   const rank = plan.considered > 1 ? `${among} of ${plan.considered} policies: ${why}` : "the only policy";
   return `It chooses ${ACTIONS[plan.action]}, first of ${route(plan.policies[plan.chosen])}; ${rank}.`;

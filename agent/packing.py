@@ -1,0 +1,127 @@
+"""Records as plain JSON values and arrays, and back; no pickle."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, is_dataclass, replace
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inference import Belief, Message, Rivals
+from ..model import STEPS, CogmapError, CognitiveMap, Percept, Slice, Table, encode, plain, window_graph
+from .state import Choice, GivenPreferences, Moment, State
+
+Arrays = dict[str, NDArray[Any]]
+
+RECORDS: dict[str, type[Any]] = {
+    kind.__name__: kind for kind in (State, Belief, Message, Rivals, Slice, Table, Percept, Moment, Choice)
+} | {"GivenPreferences": GivenPreferences}
+"""What is taken apart field by field, by name."""
+
+
+_OF_THE_STEP = ("likelihoods", "pruned", "ahead")
+"""Of a belief, what only the step that it is of needs."""
+
+
+def pack(value: Any, arrays: Arrays, path: str) -> Any:
+    """A JSON value; what are arrays goes into `arrays`, named by where it stands.
+
+    Raises:
+        CogmapError: a label cannot be written as JSON.
+    """
+    if isinstance(value, np.ndarray):
+        arrays[path] = value.copy()
+        return {"array": path}
+    if isinstance(value, Table):
+        value = replace(value, values=value.array)
+    if is_dataclass(value):
+        left_out = _OF_THE_STEP if isinstance(value, Belief) else ()
+        parts = {field.name: getattr(value, field.name) for field in fields(value) if field.name not in left_out}
+        packed = {name: pack(part, arrays, f"{path}.{name}") for name, part in parts.items()}
+        return {"record": type(value).__name__, **packed}
+    if isinstance(value, tuple | list | deque):
+        items = [pack(item, arrays, f"{path}.{i}") for i, item in enumerate(cast(Sequence[Any], value))]
+        return {"tuple" if isinstance(value, tuple) else "list": items}
+    if isinstance(value, Mapping):
+        pairs = cast(Mapping[Any, Any], value).items()
+        return {"pairs": [[encode(key), pack(item, arrays, f"{path}.{i}")] for i, (key, item) in enumerate(pairs)]}
+    return encode(plain(value))
+
+
+def unpack(value: Any, arrays: Mapping[str, NDArray[Any]]) -> Any:
+    """What `pack` took apart; lists come back as lists.
+
+    Raises:
+        CogmapError, KeyError, TypeError: it is nothing that `pack` wrote.
+    """
+    if not isinstance(value, dict):
+        if isinstance(value, list):
+            raise CogmapError("a list stands where a value should")
+        return value
+    parts = cast(dict[str, Any], value)
+    if "array" in parts:
+        return arrays[parts["array"]]
+    if "record" in parts:
+        kind = RECORDS[parts["record"]]
+        return kind(**{name: unpack(part, arrays) for name, part in parts.items() if name != "record"})
+    if "pairs" in parts:
+        return {unpack(key, arrays): unpack(item, arrays) for key, item in parts["pairs"]}
+    items = [unpack(item, arrays) for item in parts["tuple" if "tuple" in parts else "list"]]
+    return tuple(items) if "tuple" in parts else items
+
+
+def unpacked_state(packed: Any, arrays: Mapping[str, NDArray[Any]], map_: CognitiveMap, window: int) -> State:
+    """The state that `pack` took apart, of an agent with this map.
+
+    Raises:
+        CogmapError: belief or window are not about the map.
+    """
+    state: State = unpack(packed, arrays)
+    state.window, state.recent = deque(state.window, maxlen=window + 1), deque(state.recent, maxlen=STEPS)
+    _check_rivals(state.rivals)
+    if state.belief is not None:
+        _check_belief(state.belief, map_)
+    for slice_ in state.window:
+        numbers, shape = (slice_.places, slice_.positions), (len(slice_.places), len(slice_.positions))
+        if not all(map(_is_list, numbers)) or slice_.joint.shape != shape:
+            raise CogmapError("the window does not fit its places and positions")
+        _check_numbers(*numbers, map_)
+    for variable in window_graph(map_, state.window).variables:  # its factors check their shapes
+        assert variable.domain
+    return state
+
+
+def _check_rivals(rivals: Rivals) -> None:
+    lists = rivals.since, rivals.visits, rivals.odds, rivals.coincidence
+    if rivals.positions.ndim != 2 or not all(map(_is_list, lists)) or {*map(len, lists)} != {len(rivals.positions)}:
+        raise CogmapError("the lists of the rivals do not fit one another")
+    kinds = "".join(part.dtype.kind for part in (rivals.positions, *lists))
+    if len(rivals.odds) and (kinds != "iiiff" or not np.isfinite([*rivals.odds, *rivals.coincidence]).all()):
+        raise CogmapError("the rivals are no numbers")
+
+
+def _check_belief(belief: Belief, map_: CognitiveMap) -> None:
+    message, told = belief.message, belief.log_likelihood
+    of_pairs = (message.places, message.positions, message.mass, told)
+    lists = (*zip(of_pairs, "iiff", strict=True), *zip(belief.pairwise, "iif", strict=True))
+    if not all(_is_list(part) and part.dtype.kind == kind for part, kind in lists):
+        raise CogmapError("a list of the belief is none of numbers of its kind")
+    if len(set(map(len, of_pairs))) > 1 or len(set(map(len, belief.pairwise))) > 1:
+        raise CogmapError("the masses of the belief do not belong to its places and positions")
+    fine = abs(message.mass.sum() - 1.0) < 1e-6 and np.isfinite(told).all() and (message.mass >= 0.0).all()
+    if not fine:
+        raise CogmapError("the masses of the belief are no probabilities")
+    _check_numbers(message.places, message.positions, map_)
+
+
+def _check_numbers(places: NDArray[Any], positions: NDArray[Any], map_: CognitiveMap) -> None:
+    for numbers, count in ((places, len(map_.places)), (positions, max(len(map_.positions), 1))):
+        if not len(numbers) or numbers.min() < 0 or numbers.max() >= count:
+            raise CogmapError("belief or window are about places that the map does not have")
+
+
+def _is_list(numbers: Any) -> bool:
+    return isinstance(numbers, np.ndarray) and numbers.ndim == 1

@@ -1,0 +1,149 @@
+"""`cogmap explore`: one walk for people, or a sweep."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+
+from ..text import number, say, say_saved, seeds_of, show_table, spread
+from .options import Agent, Dask, Jobs, LookAhead, Policies, Runs, Seed, Trace, World
+from .progress import counting, progress
+
+if TYPE_CHECKING:
+    from ...worlds import Chart
+    from .. import Moment, Parts, Walk
+
+MaxSteps = Annotated[int | None, typer.Option(min=1, help="Give up after so many; 50 a room + 50 unless given.")]
+Growth = Annotated[
+    str, typer.Option(metavar="NAME", help="predicted, observed, static; several with commas, or all (cogmap only).")
+]
+Engine = Annotated[str, typer.Option(metavar="NAME", help="Of the window: numpy or gtsam (cogmap only).")]
+Json = Annotated[
+    Path | None, typer.Option(metavar="FILE", help="Write the runs as JSON; a list if there are several growths.")
+]
+Save = Annotated[
+    Path | None, typer.Option(metavar="FILE.npz", help="Save the agent (of a sweep, that of its first run).")
+]
+Out = Annotated[
+    Path | None,
+    typer.Option(metavar="PICTURE", help="Where the picture goes; without --runs it is WORLD.png unless given."),
+]
+NOT_COMPLETE = 1
+
+
+def explore_command(
+    world: World,
+    agent: Agent = "cogmap",
+    runs: Runs = None,
+    seed: Seed = 0,
+    look_ahead: LookAhead = 6,
+    max_steps: MaxSteps = None,
+    policies: Policies = "map_guided",
+    growth: Growth = "predicted",
+    engine: Engine = "numpy",
+    jobs: Jobs = 1,
+    dask: Dask = None,
+    json: Json = None,
+    save: Save = None,
+    trace: Trace = None,
+    out: Out = None,
+) -> None:
+    """Explore a maze, until every room was visited and every transition is believed at 0.6 or more.
+
+    Exit code 0, or 1 where the one walk (without --runs) did not complete.
+    """
+    from ...model import GROWTHS
+    from ...views import explore_figure
+    from ...worlds import load_world
+    from .. import Parts, check_outputs, exploration, explore_many, unused, workers, write_json, write_picture
+    from .walk_text import show_walk
+
+    place = load_world(world)
+    names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
+    options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine}
+    every = [Parts.named(agent, growth=name, **options) for name in names]
+    sweep, chart = runs is not None or len(every) > 1, place.chart
+    _check(agent, len(every), save, trace, out, dask=dask is not None and not sweep)
+    picture = out if sweep or out is not None else unused(Path(f"{chart.name}.png"))
+    check_outputs([json, save, trace, picture], inputs=[world], picture=picture)
+    results: list[dict[str, Any]] = []
+    if sweep:
+        total = (runs or 1) * len(every)
+        with workers(jobs=jobs, dask=dask) as executor, counting(f"exploring {chart.name}", total) as one_more:
+            where: Any = {"runs": runs or 1, "seed": seed, "executor": executor, "on_done": one_more}
+            for parts in every:
+                made = explore_many(place, agent=parts, max_steps=max_steps, **where)
+                results.append(exploration(place, made, agent=parts, max_steps=max_steps))
+        _show_sweeps(results)
+    done = None if sweep and not (save or trace or picture) else _walk(place, chart, seed, every[0], max_steps, trace)
+    if done is not None and not sweep:
+        show_walk(chart, done, agent=agent)
+        results = [exploration(place, [done.run], agent=every[0], max_steps=max_steps)]
+    if json is not None:
+        write_json(json, results[0] if len(results) == 1 else results)
+    if done is not None and save is not None:
+        done.walker.save(save)
+    if done is not None and picture is not None:
+        known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
+        with progress("drawing", 1):
+            title = f"{chart.name}, {agent}, seed {seed}"
+            write_picture(picture, explore_figure(chart, done.path, title=title, **known))
+    say_saved(runs=json, agent=save, trace=trace, picture=picture)
+    if done is not None and not sweep and not done.finished:
+        say(f"Not complete after {len(done.path) - 1} steps; allow more with --max-steps.", style="bold red")
+        raise typer.Exit(NOT_COMPLETE)
+
+
+def _check(agent: str, growths: int, save: Path | None, trace: Path | None, out: Path | None, *, dask: bool) -> None:
+    from ...model import CogmapError
+    from .tracing import check_trace
+
+    if save is not None and agent != "cogmap":
+        raise CogmapError(f"agent {agent} has no map to save; leave --save out, or use --agent cogmap")
+    if growths > 1 and agent != "cogmap":
+        raise CogmapError(f"agent {agent} does not grow a map; leave --growth out, or use --agent cogmap")
+    if growths > 1 and (save or trace or out):
+        raise CogmapError("--save, --trace and --out keep one walk; give one --growth, or leave them out")
+    check_trace(agent, trace)
+    if dask:
+        raise CogmapError("--dask is for sweeps; give --runs as well, or leave --dask out")
+
+
+def _walk(place: Any, chart: Chart, seed: int, parts: Parts, max_steps: int | None, trace: Path | None) -> Walk:
+    """Walk once, and record it."""
+    from ...worlds import place_of
+    from .. import walk
+    from .tracing import Tracing
+
+    tracing, entered = Tracing(trace, chart, title=f"{chart.name}, seed {seed}"), set[Any]()
+    with progress(f"exploring {chart.name}, rooms", len(chart.places)) as report:
+
+        def watch(moment: Moment) -> None:
+            entered.add(place_of(moment.info))
+            report(len(entered))
+            tracing(moment)
+
+        done = walk(place, seed, agent=parts, max_steps=max_steps, watch=watch)
+    tracing.save()
+    return done
+
+
+def _show_sweeps(results: list[dict[str, Any]]) -> None:
+    """A line for each sweep: how many completed, and after how many steps (mean ± standard deviation)."""
+    first, what = results[0], ("steps_to_visit_all", "steps_to_learn", "steps_to_complete")
+    world, grown = f"[bold]{escape(first['world'])}[/bold]", "growth" in first["settings"]
+    cells: list[list[str]] = []
+    for result in results:
+        summary, name = result["summary"], result["settings"].get("growth", result["agent"])
+        steps = (*(spread(summary, each) for each in what), number(summary["mean_oracle_steps"]))
+        done, ratio = f"{summary['completed']}/{summary['runs']}", number(summary["ratio"], digits=3)
+        cells.append([name, done, *steps, ratio])
+    headings = ("growth" if grown else "agent", ">done", ">visit all", ">learn", ">complete", ">oracle", ">ratio")
+    say(f"{world}, agent {first['agent']}: steps, mean ± standard deviation", markup=True)
+    show_table(headings, cells)
+    for (name, *_), result in zip(cells, results, strict=True):
+        if lost := seeds_of(result, lambda run: run["steps_to_complete"] is None):
+            say(f"{name}: not complete with seeds {lost}", style="red")

@@ -1,0 +1,114 @@
+"""`cogmap navigate`: to a preferred sight, one run for people, or a sweep."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import typer
+
+from ..text import count, number, place_text, say, say_saved, seeds_of
+from .options import Agent, Dask, Jobs, Json, LookAhead, MaxStepsTwice, Policies, Runs, Seed, Trace, World
+from .progress import counting
+
+Goal = Annotated[str, typer.Option(metavar="LABEL", help="The label to go to; the agent is there when it stays.")]
+Unexplored = Annotated[bool, typer.Option("--unexplored", help="Set out in an unknown maze.")]
+Close = Annotated[
+    list[str] | None,
+    typer.Option(metavar="ROW,COLUMN", help="Close this room once the maze is explored; may be given several times."),
+]
+Weight = Annotated[float, typer.Option(help="W: log preference of the goal over all other sights, in nats.")]
+
+
+def navigate_command(
+    world: World,
+    goal: Goal,
+    agent: Agent = "cogmap",
+    unexplored: Unexplored = False,
+    runs: Runs = None,
+    seed: Seed = 0,
+    look_ahead: LookAhead = 6,
+    max_steps: MaxStepsTwice = None,
+    policies: Policies = "map_guided",
+    weight: Weight = 8.0,
+    close: Close = None,
+    jobs: Jobs = 1,
+    dask: Dask = None,
+    json: Json = None,
+    trace: Trace = None,
+) -> None:
+    """Explore a maze, be moved to a random room without a word, then go to a sight: in how many steps?
+
+    Exit code 0, or 1 where the one run (without --runs) did not reach it.
+    """
+    from ...worlds import load_world
+    from .. import (
+        Parts,
+        check_goal,
+        check_outputs,
+        navigate,
+        navigate_many,
+        navigate_result,
+        parse_goal,
+        workers,
+        write_json,
+    )
+    from .tracing import Tracing, check_trace
+
+    check_trace(agent, trace)
+    place = load_world(world)
+    label, name, many = parse_goal(place, goal), place.chart.name, runs or 1
+    task: Any = {"weight": weight, "closed": [_room(text) for text in close or ()], "known": not unexplored}
+    check_goal(place, label, **task)
+    check_outputs([json, trace], inputs=[world])
+    parts = Parts.named(agent, policies=policies, look_ahead=look_ahead)
+    options: Any = {"goal": label, "agent": parts, "max_steps": max_steps, **task}
+    with workers(jobs=jobs, dask=dask) as executor, counting(f"navigating in {name}", many) as one_more:
+        done = navigate_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)
+    result = navigate_result(place, done, **options)
+    say(*(_one(result) if runs is None else _many(result)), title=f"{name}, goal {label}")
+    if json is not None:
+        write_json(json, result)
+    if trace is not None:
+        tracing = Tracing(trace, place.chart, title=f"{name}, goal {label}, seed {seed}", goals=(label,))
+        navigate(place, seed, watch=tracing, **options)
+        tracing.save()
+    say_saved(runs=json, trace=trace)
+    if runs is None and not done[0].reached:
+        raise typer.Exit(1)
+
+
+def _room(text: str) -> tuple[int, ...]:
+    from ...model import CogmapError
+
+    numbers = text.split(",")
+    if len(numbers) != 2 or not all(number.strip().isdecimal() for number in numbers):
+        raise CogmapError(f"close: {text!r} is no room; give ROW,COLUMN, such as 0,2")
+    return tuple(map(int, numbers))
+
+
+def _one(result: dict[str, Any]) -> list[str]:
+    run, most = result["runs"][0], count(result["summary"]["max_steps"], "step")
+    if run["start"] is None:
+        return [f"Not explored after {most}; allow more with --max-steps."]
+    reached = f"reached after {count(run['steps'], 'step')}" if run["reached"] else f"not reached after {most}"
+    found, start = f"{reached}; shortest possible {run['shortest']}", place_text(run["start"])
+    if result["unexplored"]:
+        frontier = count(run["frontier_steps"], "step")
+        return [f"unexplored, from {start}", found, f"nearest-frontier search: {frontier}"]
+    explored = f"explored from {place_text(run['explored_from'])} in {count(run['steps_to_explore'], 'step')}"
+    return [f"{explored}, then moved to {start} without a word", found]
+
+
+def _many(result: dict[str, Any]) -> list[str]:
+    summary, unexplored = result["summary"], result["unexplored"]
+    steps = f"steps: {number(summary['mean_steps'])} (mean), shortest possible {number(summary['mean_shortest'])}"
+    if unexplored:
+        steps += f", nearest-frontier search {number(summary['mean_frontier_steps'])}"
+    total = f"in all {summary['total_steps']} for {summary['total_shortest']}"
+    lines = [
+        f"reached {summary['reached']}/{summary['runs']}{', unexplored' if unexplored else ''}",
+        f"{steps}; {total}, ratio {number(summary['ratio'], digits=3)}",
+    ]
+    if lost := seeds_of(result, lambda run: not run["reached"]):
+        lines.append(f"not reached with seeds {lost}")
+    return lines

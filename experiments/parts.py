@@ -1,0 +1,105 @@
+"""Names to parts: the one place where agents are made by name, for the command line, ledgers and sweeps."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any, Protocol, Self
+
+import numpy as np
+
+from ..agent import Agent, Settings
+from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
+from ..model import CogmapError
+from ..worlds import Chart, HasChart, World, offered
+
+CSCG = {
+    "cscg": (False, "viterbi"),
+    "cscg_pose": (True, "viterbi"),
+    "cscg_random": (False, "random"),
+    "cscg_pose_random": (True, "random"),
+}
+"""The four variants of the paper: whether it is given its position, and how it moves."""
+
+AGENTS = ("cogmap", "frontier", "random", *CSCG)
+
+
+class Maker(Protocol):
+    """Makes the agents of a sweep, each with a seed of its own; to go to other processes it must pickle."""
+
+    @property
+    def agent(self) -> str:
+        """What the agents are called in results."""
+        ...
+
+    def make(self, world: Any, seed: np.random.SeedSequence, /) -> Any:
+        """A new agent for this world, with `step`, and for navigating with `prefer`."""
+        ...
+
+    def to_dict(self, chart: Chart, /) -> dict[str, Any]:
+        """What agents in the world of this chart are made with, as plain JSON values."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """What an agent is made of, by name.
+
+    Attributes:
+        agent: one of `AGENTS`.
+        settings: of `cogmap`; static growth gets the number of places where none is given.
+        cscg: of the clone-structured graphs.
+
+    Raises:
+        CogmapError: no agent has this name.
+    """
+
+    agent: str = "cogmap"
+    settings: Settings = field(default_factory=Settings)
+    cscg: CscgSettings = field(default_factory=CscgSettings)
+
+    def __post_init__(self) -> None:
+        if self.agent not in AGENTS:
+            raise CogmapError(f"no agent is called {self.agent!r}; choose one of {', '.join(AGENTS)}")
+
+    @classmethod
+    def named(cls, agent: str = "cogmap", *, growth: str = "predicted", **options: Any) -> Self:
+        """From the options of the command line: growth, policies, look_ahead, engine."""
+        return cls(agent, Settings(growth=growth, **options))
+
+    def growing(self, growth: str) -> Self:
+        """The same with another growth."""
+        return replace(self, settings=replace(self.settings, growth=growth))
+
+    def make(self, world: Any, seed: np.random.SeedSequence) -> Any:
+        """A new agent that knows of the world only what its kind must be told.
+
+        Args:
+            world: gives the motions; the number of places to static growth; and the number of sights (or places, if it
+                is given positions) to a clone-structured graph.
+            seed: of the agent.
+        """
+        motions = offered(world, World, "an agent").motions
+        chart = offered(world, HasChart, f"agent {self.agent}").chart
+        if self.agent == "cogmap":
+            return Agent(motions, settings=self._fitted(chart), seed=int(seed.generate_state(1)[0]))
+        if self.agent in CSCG:
+            positions, how = CSCG[self.agent]
+            seen = len(chart.places if positions else set(chart.sights.values()))
+            told: dict[str, Any] = {
+                "observations": seen,
+                "positions": positions,
+                "navigation": how,
+                "settings": self.cscg,
+            }
+            return CscgAgent(motions, seed=seed, **told)
+        return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
+
+    def to_dict(self, chart: Chart) -> dict[str, Any]:
+        """The settings that the agent goes by, as plain JSON values; none for a baseline that has none."""
+        if self.agent == "cogmap":
+            return self._fitted(chart).to_dict()
+        return self.cscg.to_dict() if self.agent in CSCG else {}
+
+    def _fitted(self, chart: Chart) -> Settings:
+        unsaid = self.settings.growth == "static" and self.settings.places is None
+        return replace(self.settings, places=len(chart.places)) if unsaid else self.settings

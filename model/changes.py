@@ -1,0 +1,227 @@
+"""The append-only log of everything that is written into a map: undone, branched, and read by cursor."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol
+
+from numpy.typing import NDArray
+
+from .errors import CogmapError
+from .growth_event import GrowthEvent
+
+KEPT = 1000
+"""Entries that are kept at least, for readers who come late."""
+
+STEPS = 50
+"""Marks that can be undone, the last ones."""
+
+
+class Store(Protocol):
+    """What the log can put back: a table, a column, or the places of a map."""
+
+    @property
+    def name(self) -> str:
+        """Unique in its map."""
+        ...
+
+    def put(self, where: Any, value: Any) -> None:
+        """Write `value`, as `Change` has it, without telling the log."""
+        ...
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """Copies of the arrays that hold it, for saving."""
+        ...
+
+    def value(self, numbers: Sequence[float]) -> Any:
+        """A value as `put` takes it, from the numbers that a file has of it."""
+        ...
+
+    def touched(self, where: Any) -> Iterable[int] | None:
+        """The places whose columns a change at `where` is about; None: any of them."""
+        ...
+
+
+class Change(NamedTuple):
+    """One stored cell that was written.
+
+    Attributes:
+        store: the table or column.
+        where: the cell in it; the store knows what that means.
+        old: what was there.
+        new: what is there now.
+    """
+
+    store: Store
+    where: Any
+    old: Any
+    new: Any
+
+
+Entry = Change | GrowthEvent
+
+
+@dataclass(eq=False, slots=True)
+class Branch:
+    """What was written since a fork.
+
+    Attributes:
+        parent: the branch that it was forked from; None for the trunk.
+        changes: its own, up to when it was last left; the trunk keeps none.
+        forked: whether others build on it.
+    """
+
+    parent: Branch | None = None
+    changes: tuple[Change, ...] = ()
+    forked: bool = False
+
+    @property
+    def ancestors(self) -> list[Branch]:
+        """From the trunk to this branch itself."""
+        return [*(self.parent.ancestors if self.parent else ()), self]
+
+
+class Changes:
+    """The log of one map. What is undone is logged too, so that nothing that was read ever becomes untrue.
+
+    Attributes:
+        branch: the one that is written to.
+    """
+
+    def __init__(self) -> None:
+        self.branch = Branch()
+        self._entries: list[Entry] = []
+        self._dropped = 0
+        self._room = 2 * KEPT
+        self._marks: deque[int] = deque(maxlen=STEPS)
+        self._undone: list[tuple[int, int]] = []  # spans that come to nothing
+        self._begun = 0  # where what `branch` has written since it was entered begins
+
+    def __len__(self) -> int:
+        """Entries so far, those that were dropped included."""
+        return self._dropped + len(self._entries)
+
+    def append(self, entry: Entry) -> None:
+        """Log what was written, or what has grown."""
+        self._entries.append(entry)
+        if len(self._entries) > self._room:
+            self._trim()
+
+    def since(self, cursor: int) -> tuple[Sequence[Entry] | None, int]:
+        """The entries after `cursor`, None where some of them are gone, and the cursor to go on from; begin with -1."""
+        first = cursor - self._dropped
+        return (None if first < 0 else self._entries[first:]), len(self)
+
+    # -- going back ----------------------------------------------------------------------------------------
+
+    def mark(self) -> int:
+        """A point to which `undo` can return, as long as it is among the last `STEPS` ones."""
+        self._marks.append(len(self))
+        return self._marks[-1]
+
+    def undo(self, mark: int) -> list[Change]:
+        """Put everything back to what it was at `mark`.
+
+        Returns:
+            The changes that were undone, in the order in which they were made.
+
+        Raises:
+            CogmapError: it is no mark, older than the last `STEPS` ones, or older than the branch.
+        """
+        if mark not in self._marks:
+            oldest = f"the oldest is {self._marks[0]}" if self._marks else "there are none"
+            raise CogmapError(f"changes: {mark} is no mark that is kept; {oldest}, call mark() sooner")
+        if self.branch.parent and mark < self._begun:
+            raise CogmapError(f"changes: mark {mark} is older than this branch; switch to its parent first")
+        while self._marks[-1] > mark:
+            self._marks.pop()
+        changes = self._take_back(self._written(mark))
+        self._undone = [(begin, end) for begin, end in self._undone if end <= mark] + [(mark, len(self))]
+        return changes
+
+    def _written(self, since: int) -> list[Change]:
+        """The changes since then, but for those that were undone."""
+        found: list[Entry] = []
+        for begin, end in self._undone:
+            if begin >= since:
+                found += self._entries[since - self._dropped : begin - self._dropped]
+                since = end
+        found += self._entries[since - self._dropped :]
+        return [entry for entry in found if isinstance(entry, Change)]
+
+    def _take_back(self, changes: Sequence[Change]) -> list[Change]:
+        for store, where, old, new in reversed(changes):
+            store.put(where, old)
+            self.append(Change(store, where, new, old))
+        return list(changes)
+
+    def _repeat(self, changes: Sequence[Change]) -> None:
+        for change in changes:
+            change.store.put(change.where, change.new)
+            self.append(change)
+
+    def undoable(self) -> tuple[int, list[Entry], list[int], list[tuple[int, int]]]:
+        """Where the oldest mark is, the entries since then, the marks, and the spans of entries that were undone."""
+        first = self._marks[0] if self._marks else len(self)
+        undone = [span for span in self._undone if span[0] >= first]
+        return first, self._entries[first - self._dropped :], list(self._marks), undone
+
+    def restore(
+        self, first: int, entries: Iterable[Entry], marks: Sequence[int], undone: Iterable[tuple[int, int]]
+    ) -> None:
+        """Take over what `undoable` gave of another log."""
+        self._entries, self._marks, self._undone = list(entries), deque(marks, maxlen=STEPS), list(undone)
+        self._dropped = first
+        self._begun = len(self)
+
+    # -- branches ------------------------------------------------------------------------------------------
+
+    def fork(self) -> Branch:
+        """Go on in a new branch of what there is; `switch` leads back to the old one, which must stay as it is."""
+        parent = self._leave()
+        parent.forked = True
+        self.branch, self._begun = Branch(parent), len(self)
+        return self.branch
+
+    def switch(self, branch: Branch) -> None:
+        """Make everything as `branch` has it; costs the changes since the two were one.
+
+        Raises:
+            CogmapError: it belongs to another log, or was written to after it had been forked.
+        """
+        here, there = self._leave().ancestors, branch.ancestors
+        if here[0] is not there[0]:
+            raise CogmapError("changes: that branch is not of this log, or was cut off by settle()")
+        common = sum(a is b for a, b in zip(here, there, strict=False))
+        for left in reversed(here[common:]):
+            self._take_back(left.changes)
+        for entered in there[common:]:
+            self._repeat(entered.changes)
+        self.branch, self._begun = branch, len(self)
+
+    def settle(self) -> None:
+        """Make the present branch the trunk: nothing leads back to the others, and their memory is free."""
+        self.branch, self._begun = Branch(), len(self)
+
+    def _leave(self) -> Branch:
+        branch = self.branch
+        if branch.parent or branch.forked:
+            written = self._written(self._begun)
+            if written and branch.forked:
+                raise CogmapError("changes: a branch that was forked was written to; fork it again and write there")
+            branch.changes += tuple(written)
+        self._begun = len(self)
+        return branch
+
+    def _trim(self) -> None:
+        """Drop what neither a mark nor the present branch needs, but for the last `KEPT` entries."""
+        needed = [len(self) - KEPT, *([self._marks[0]] if self._marks else [])]
+        if self.branch.parent or self.branch.forked:
+            needed.append(self._begun)
+        drop = max(min(needed) - self._dropped, 0)
+        del self._entries[:drop]
+        self._dropped += drop
+        self._undone = [span for span in self._undone if span[0] >= self._dropped]
+        self._room = 2 * max(len(self._entries), KEPT)

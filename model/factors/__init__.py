@@ -1,0 +1,37 @@
+"""The factors of the generative model (eq. 1), one class a file."""
+
+from __future__ import annotations
+
+from .base import Context, ModelFactor, Successors, Support, Table
+from .displacement import Displacement
+from .pose import POSES, Ahead, Lattice, NoPose, Pose
+from .sensor import Sensor
+from .sight import Sight
+from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
+from .ways import Ways
+
+SENSORS: dict[str, type[Sensor]] = {"sight": Sight, "ways": Ways}
+"""Kinds of sensors by name."""
+
+__all__ = [
+    "BLOCKED",
+    "ELSEWHERE",
+    "OPEN",
+    "POSES",
+    "SENSORS",
+    "UNKNOWN",
+    "Ahead",
+    "Context",
+    "Displacement",
+    "Lattice",
+    "ModelFactor",
+    "NoPose",
+    "Pose",
+    "Sensor",
+    "Sight",
+    "Successors",
+    "Support",
+    "Table",
+    "Transition",
+    "Ways",
+]

@@ -1,0 +1,185 @@
+"""What every factor of the generative model offers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..changes import Changes, Store
+from ..errors import CogmapError
+from ..growth_event import GrowthEvent
+from ..motions import Motions
+from ..percept import Percept
+from ..rates import Priors, Rates
+from ..visits import Visits
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What the factors of one model share.
+
+    Attributes:
+        motions: the actions.
+        priors: concentrations before evidence.
+        rates: counts that a piece of evidence adds.
+        changes: the log that every factor writes to.
+        growth: everything that was ever added to the model.
+        visits: which places were entered.
+        slip: probability of a slip for poses that are given none.
+    """
+
+    motions: Motions
+    priors: Priors
+    rates: Rates
+    changes: Changes
+    growth: list[GrowthEvent]
+    visits: Visits
+    slip: float
+
+    def grown(self, event: GrowthEvent) -> None:
+        """Log something that was added."""
+        self.growth.append(event)
+        self.changes.append(event)
+
+
+@dataclass(frozen=True, slots=True)
+class Successors:
+    """Where an action may have led from each of `n` places, `[n, slots]`.
+
+    Attributes:
+        places: s'; negative where a slot is unused, or leads out of the map.
+        probability: B_s[a](s', s).
+        coupling: what the factors of this step are multiplied by besides, given what is sensed now.
+    """
+
+    places: Ints
+    probability: Floats
+    coupling: Floats
+
+    def of(self, rows: Ints) -> Successors:
+        """Those of some of the places."""
+        return Successors(self.places[rows], self.probability[rows], self.coupling[rows])
+
+
+@dataclass(frozen=True, slots=True)
+class Support:
+    """What the factors of one time step are tabulated over: the places and positions that hold mass.
+
+    Attributes:
+        step: the time step t.
+        percept: what it brought.
+        places: `[n]` domain of s_t.
+        positions: `[m]` domain of p_t.
+        before: the domains of s_t-1 `[n']` and p_t-1 `[m']`; None where the window begins.
+        likelihoods: by name of the sensor, `[n]` P(reading | s_t), of all together up to one factor.
+        arrival: `[n]` P(s_t | moved_t); None in a model without displacement.
+        examined: whether the filter looked at displacement at all.
+        ahead: where the action may have led from each of the places before, as the filter had it.
+    """
+
+    step: int
+    percept: Percept
+    places: Ints
+    positions: Ints
+    before: tuple[Ints, Ints] | None
+    likelihoods: Mapping[str, Floats]
+    arrival: Floats | None
+    examined: bool
+    ahead: Successors | None
+
+    def scope(self, name: str) -> tuple[str, ...]:
+        """`name` at t and at t-1, and whether the agent was moved in between where the model has that."""
+        now, before = f"{name}{self.step}", f"{name}{self.step - 1}"
+        return (now, before) if self.arrival is None else (now, before, f"moved{self.step}")
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A factor of one time step, for the graph of the window.
+
+    Attributes:
+        name: its symbol.
+        scope: names of its variables, one an axis.
+        values: the factor itself, or what works it out when it is asked for; must not read what may change.
+        kind: `sight`, `walls`, `transition`, …, as in `Factor`.
+        equation: what it says.
+        observed: label of the first variable of its scope, if that is observed.
+    """
+
+    name: str
+    scope: tuple[str, ...]
+    values: Floats | Callable[[], Floats]
+    kind: str
+    equation: str
+    observed: tuple[Hashable, ...] = ()
+
+    @property
+    def array(self) -> Floats:
+        """The factor itself."""
+        return self.values() if callable(self.values) else self.values
+
+
+class ModelFactor:
+    """One factor of the generative model (eq. 1): all that anybody needs to know of its part.
+
+    A factor belongs to one model from the moment it is attached.
+
+    Attributes:
+        name: unique in its model.
+        context: what it shares with the others.
+    """
+
+    name: str
+    _context: Context | None = None
+
+    def attach(self, context: Context) -> None:
+        """Make it part of a model.
+
+        Raises:
+            CogmapError: it is part of one already.
+        """
+        if self._context is not None:
+            raise CogmapError(f"{self.name}: this {type(self).__name__} belongs to another agent; make one for each")
+        self._context = context
+
+    @property
+    def context(self) -> Context:
+        """What it shares with the other factors of its model."""
+        if self._context is None:
+            raise CogmapError(f"{self.name}: it belongs to no model yet; give it to an Agent or a CognitiveMap")
+        return self._context
+
+    @property
+    def stores(self) -> tuple[Store, ...]:
+        """What the log of changes may speak of."""
+        return ()
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """What it was made with, as plain JSON values: its class called with them makes another."""
+        return {}
+
+    def grow(self, places: int) -> None:
+        """Have room for so many places: new ones are appended, or the last are dropped."""
+
+    def state(self) -> dict[str, Any]:
+        """What a file needs of it besides its stores, as plain JSON values."""
+        return {}
+
+    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
+        """Take over what `state` gave, and the arrays of its stores (`name.part`), for so many places.
+
+        Raises:
+            CogmapError, KeyError: they do not fit.
+        """
+
+    def tables(self, support: Support) -> Iterable[Table]:
+        """Its factors at one time step of the window's graph."""
+        return ()

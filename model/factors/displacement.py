@@ -1,0 +1,44 @@
+"""P(moved_t): the agent was put into some visited place without being told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from ..errors import CogmapError
+from .base import Floats, Ints, ModelFactor, Support, Table
+
+
+class Displacement(ModelFactor):
+    """With a small probability the agent is in any of the visited places instead, all alike.
+
+    Args:
+        probability: P(moved_t).
+
+    Raises:
+        CogmapError: it is no probability.
+    """
+
+    name = "displacement"
+
+    def __init__(self, probability: float = 1e-4) -> None:
+        if not 0.0 <= probability <= 1.0:
+            raise CogmapError(f"displacement: {probability!r} is no probability; use a number from 0 to 1")
+        self.probability = probability
+
+    @property
+    def options(self) -> dict[str, float]:
+        """P(moved_t)."""
+        return {"probability": self.probability}
+
+    def arrival(self, places: Ints) -> Floats:
+        """`[n]` P(s_t | moved_t)."""
+        visits = self.context.visits
+        return visits.visited.values[places] / max(len(visits.order), 1)
+
+    def tables(self, support: Support) -> Iterable[Table]:
+        """P(moved_t): zero where the filter did not look, since it would have dropped all of it."""
+        if support.before is not None:
+            p = np.array([1.0 - self.probability, self.probability * support.examined])
+            yield Table("M", (f"moved{support.step}",), p, "displacement", "P(moved_t)")

@@ -1,0 +1,88 @@
+"""What every kind of pose offers."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+
+from ...dirichlet import SparseDirichlet
+from ...domain import Domain
+from ...motions import Position
+from ..base import Floats, Ints, ModelFactor
+
+Ahead = Sequence[tuple[Ints, float]]
+"""Poses `[n]` that an action may lead to from `n` poses, -1 where there is none, and with which probability."""
+
+
+class Pose(ModelFactor):
+    """Where a place is, by the agent's own reckoning: P(p | s), and how actions change it.
+
+    Poses are numbers; what a number stands for is in `positions`.
+
+    Attributes:
+        positions: their labels.
+        table: counts of P(p | s), a row a place.
+    """
+
+    name = "pose"
+    positions: Domain
+    table: SparseDirichlet
+
+    @property
+    def origin(self) -> Position | None:
+        """Where the agent wakes up; None where places have no positions."""
+        return None
+
+    def position(self, place: int) -> Position | None:
+        """The position of a place; None where it has none."""
+        return None
+
+    def place_at(self, position: Hashable) -> int | None:
+        """The place at a position; None where there is none."""
+        return None
+
+    def of(self, places: Ints) -> Ints:
+        """`[n]` the pose of each place; -1 where it has none."""
+        raise NotImplementedError
+
+    def spread(self, places: Ints) -> tuple[Ints, Floats]:
+        """P(p | s): poses and probabilities `[n, k]`."""
+        raise NotImplementedError
+
+    def fit(self, poses: Ints, places: Ints) -> Floats:
+        """`[n]` P(p | s)."""
+        raise NotImplementedError
+
+    def predict(self, poses: Ints, action: int, *, opened: bool) -> Ahead:
+        """Where an action leads from poses, whether its way was sensed open before or not."""
+        raise NotImplementedError
+
+    def stays(self, action: int, *, opened: bool) -> float:
+        """Probability that an action leaves the pose as it is, by a slip or since the way was shut."""
+        raise NotImplementedError
+
+    # -- growing -------------------------------------------------------------------------------------------
+
+    def known(self, place: int) -> bool:
+        """Whether enough is known of where a place is to imagine others beside it."""
+        return True
+
+    def ahead(self, place: int, action: int) -> tuple[Position | None, int | None]:
+        """Where `action` leads from a place by its pose, and the place that is there; None for what is not known."""
+        raise NotImplementedError
+
+    def settle(self, place: int, position: Position, *, step: int) -> None:
+        """Give a place its position."""
+        raise NotImplementedError
+
+    def neighbours(self, place: int) -> Sequence[tuple[int, int]]:
+        """The actions that lead from a place to another by its pose, and that place."""
+        return ()
+
+    # -- learning ------------------------------------------------------------------------------------------
+
+    def learn(self, place: int, weight: float) -> None:
+        """The agent was in `place`, as far as it is certain (`weight`)."""
+
+    def information(self, places: Ints, steps: int) -> Floats:
+        """`[n, N + 1]` nats that 0..N more visits teach."""
+        raise NotImplementedError

@@ -1,0 +1,205 @@
+"""Positions in Z^n: P(p | s) as Dirichlet counts A_p, one-hot in practice, and B_p, p + displacement(a)."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from functools import partial
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...changes import Store
+from ...column import Column
+from ...dirichlet import SparseDirichlet, parts_of
+from ...domain import Domain
+from ...errors import CogmapError
+from ...growth_event import GrowthEvent
+from ...information import information
+from ...labels import decode, encode
+from ...motions import Position
+from ..base import Context, Floats, Ints, Support, Table
+from .base import Ahead, Pose
+
+
+class Lattice(Pose):
+    """A place has one position, relative to where the agent woke up, and a position one place.
+
+    Args:
+        slip: probability that a motion through an open door does not change the position, or through a blocked one
+            does; that of the model's settings unless given.
+
+    Attributes:
+        positions: those met so far, by number.
+        table: A_p, a row a place.
+        beyond: `[P, K]` B_p: the position that each motion leads to; -1 where it has no number yet.
+
+    Raises:
+        CogmapError: the slip is no probability.
+    """
+
+    def __init__(self, *, slip: float | None = None) -> None:
+        if slip is not None and not 0.0 <= slip <= 1.0:
+            raise CogmapError(f"pose: slip is {slip!r}; use a number from 0 to 1")
+        self._slip = slip
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The slip."""
+        return {"slip": self._slip}
+
+    def attach(self, context: Context) -> None:
+        """Make it part of a model."""
+        super().attach(context)
+        log = context.changes
+        self.motions = context.motions
+        self.slip = context.slip if self._slip is None else self._slip
+        self.positions = Domain("positions")
+        self.table = SparseDirichlet(name="A_p", slots=1, changes=log)
+        self.position_of = Column("position_of", np.int64, fill=-1, changes=log)
+        self.places = Column("place_at", np.int64, fill=-1, changes=log)
+        self.beyond = Column("beyond", np.int64, width=len(context.motions), fill=-1)
+
+    @property
+    def stores(self) -> tuple[Store, ...]:
+        """A_p, and which place is where."""
+        return self.table, self.position_of, self.places
+
+    def grow(self, places: int) -> None:
+        """A new place has no position yet."""
+        self.table.resize(places)
+        self.position_of.resize(places)
+
+    def state(self) -> dict[str, Any]:
+        """The positions."""
+        return {"positions": [encode(position) for position in self.positions]}
+
+    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
+        """Take over positions and counts."""
+        for position in state["positions"]:
+            self._add(cast(Position, decode(position)))
+        self.grow(places)
+        self.table.restore(parts_of("A_p", arrays), outcomes=len(self.positions))
+        self.position_of.restore(arrays["position_of.values"], least=-1, bound=len(self.positions))
+        self.places.restore(arrays["place_at.values"], least=-1, bound=places)
+
+    # -- reading -------------------------------------------------------------------------------------------
+
+    @property
+    def origin(self) -> Position:
+        """Zero."""
+        return (0,) * len(self.motions.displacements[0])
+
+    def position(self, place: int) -> Position | None:
+        """The position of a place; None where it has none."""
+        index = int(self.position_of.values[place])
+        return None if index < 0 else cast(Position, self.positions[index])
+
+    def place_at(self, position: Hashable) -> int | None:
+        """The place at a position; None where there is none."""
+        index = self.positions.find(position)
+        place = -1 if index is None else int(self.places.values[index])
+        return None if place < 0 else place
+
+    def of(self, places: Ints) -> Ints:
+        """`[n]` the position of each place; -1 where it has none."""
+        return self.position_of.values[places]
+
+    def spread(self, places: Ints) -> tuple[Ints, Floats]:
+        """A_p: positions and probabilities `[n, k]`."""
+        keys, p, _ = self.table.mean(places)
+        return keys, p
+
+    def fit(self, poses: Ints, places: Ints) -> Floats:
+        """`[n]` A_p(p, s)."""
+        return self.table.probability(poses, places)
+
+    def stays(self, action: int, *, opened: bool) -> float:
+        """Probability that the position stays, but for `stay` itself."""
+        return 1.0 - self._moves(action, opened=opened)
+
+    def _moves(self, action: int, *, opened: bool) -> float:
+        return 1.0 if action == self.motions.stay else 1.0 - self.slip if opened else self.slip
+
+    def predict(self, poses: Ints, action: int, *, opened: bool) -> Ahead:
+        """B_p: moved on, or not."""
+        moves = self._moves(action, opened=opened)
+        return (self.beyond.values[poses, action], moves), (poses, 1.0 - moves)
+
+    def information(self, places: Ints, steps: int) -> Floats:
+        """`[n, N + 1]` nats that 0..N more visits teach of A_p."""
+        return information(self.table.concentration(places)[1], steps)
+
+    def tables(self, support: Support) -> Iterable[Table]:
+        """B_p[a](p_t, p_t-1), anything where the agent was moved; and A_p(p_t, s_t)."""
+        poses, t = support.positions, support.step
+        if support.before is not None and support.percept.action is not None:
+            action = support.percept.action
+            ahead = self.predict(support.before[1], action, opened=support.percept.opened)
+            name, given = f"B_p[{self.motions.names[action]}]", "" if support.arrival is None else ", moved_t"
+            values = partial(_motion, ahead, poses, moved=support.arrival is not None)
+            yield Table(name, support.scope("p"), values, "motion", f"P(p_t | p_t-1, a_t-1{given})")
+        values = partial(_places, *self.spread(support.places), poses)
+        yield Table("A_p", (f"p{t}", f"s{t}"), values, "place", "P(p_t | s_t)")
+
+    # -- growing and learning ------------------------------------------------------------------------------
+
+    def new_position(self, position: Position, *, step: int) -> int:
+        """The number of a position; the domain, and B_p, grow where it is new."""
+        known = self.positions.find(position)
+        if known is None:
+            known = self._add(position)
+            self.context.grown(GrowthEvent(step, "position", known, position))
+        return known
+
+    def _add(self, position: Position) -> int:
+        index = self.positions.add(position)
+        self.places.resize(index + 1)
+        self.beyond.resize(index + 1)
+        for action in range(len(self.motions)):
+            there = self.positions.find(self.motions.move(position, action))
+            if there is not None:
+                self.beyond.values[index, action] = there
+                self.beyond.values[there, self.motions.inverse[action]] = index
+        return index
+
+    def known(self, place: int) -> bool:
+        """Whether it has a position."""
+        return bool(self.position_of.values[place] >= 0)
+
+    def ahead(self, place: int, action: int) -> tuple[Position | None, int | None]:
+        """Where `action` leads from a place, and the place that is there."""
+        here = self.position(place)
+        there = None if here is None else self.motions.move(here, action)
+        return there, None if there is None else self.place_at(there)
+
+    def settle(self, place: int, position: Position, *, step: int) -> None:
+        """Give a place its position."""
+        index = self.new_position(position, step=step)
+        self.position_of.set(place, index)
+        self.places.set(index, place)
+        self.table.expect(place, index, self.context.priors.position)
+
+    def neighbours(self, place: int) -> Sequence[tuple[int, int]]:
+        """The actions that lead from a place to one beside it, and that place."""
+        index = int(self.position_of.values[place])
+        if index < 0:
+            return ()
+        ahead = enumerate(self.beyond.values[index].tolist())
+        places = [(action, int(self.places.values[there])) for action, there in ahead if there >= 0]
+        return [(action, there) for action, there in places if there >= 0 and action != self.motions.stay]
+
+    def learn(self, place: int, weight: float) -> None:
+        """The count of its position gains `weight` times the rate."""
+        self.table.add(place, int(self.position_of.values[place]), weight * self.context.rates.likelihood)
+
+
+def _motion(ahead: Ahead, poses: Ints, *, moved: bool) -> Floats:
+    """`[m, m']` P(p_t | p_t-1, a), or `[m, m', 2]`: anything where the agent was moved."""
+    values = sum((p * (poses[:, None] == there[None]) for there, p in ahead), np.zeros(()))
+    return np.stack([values, np.ones_like(values)], axis=-1) if moved else values
+
+
+def _places(keys: Ints, p: Floats, poses: Ints) -> Floats:
+    """`[m, n]` P(p_t | s_t)."""
+    return np.einsum("jk,ijk->ij", p, keys == poses[:, None, None])

@@ -1,0 +1,61 @@
+"""No positions at all: places are known by what is sensed there and by the ways that lead to them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...dirichlet import SparseDirichlet
+from ...domain import Domain
+from ...motions import Position
+from ..base import Context, Floats, Ints
+from .base import Ahead, Pose
+
+
+class NoPose(Pose):
+    """Every place has the same pose, which says nothing."""
+
+    def attach(self, context: Context) -> None:
+        """Make it part of a model."""
+        super().attach(context)
+        self.positions = Domain("positions")
+        self.table = SparseDirichlet(name="A_p", slots=1)
+
+    def grow(self, places: int) -> None:
+        """No counts at all."""
+        self.table.resize(places)
+
+    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
+        """Nothing but how many places there are."""
+        self.grow(places)
+
+    def of(self, places: Ints) -> Ints:
+        """`[n]` zeros."""
+        return np.zeros(len(places), dtype=np.int64)
+
+    def spread(self, places: Ints) -> tuple[Ints, Floats]:
+        """The one pose, for sure."""
+        return np.zeros((len(places), 1), dtype=np.int64), np.ones((len(places), 1))
+
+    def fit(self, poses: Ints, places: Ints) -> Floats:
+        """`[n]` ones."""
+        return np.ones(len(places))
+
+    def stays(self, action: int, *, opened: bool) -> float:
+        """It always does."""
+        return 1.0
+
+    def predict(self, poses: Ints, action: int, *, opened: bool) -> Ahead:
+        """It stays."""
+        return ((poses, 1.0),)
+
+    def ahead(self, place: int, action: int) -> tuple[Position | None, int | None]:
+        """Nobody knows."""
+        return None, None
+
+    def information(self, places: Ints, steps: int) -> Floats:
+        """None."""
+        return np.zeros((len(places), steps + 1))

@@ -1,0 +1,192 @@
+"""P(s' | s, a): where the ways of a place lead, as Dirichlet counts B_s."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..changes import Store
+from ..column import Column
+from ..dirichlet import EMPTY, SparseDirichlet, parts_of
+from ..information import information
+from ..percept import Percept
+from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table
+
+ELSEWHERE = -1
+"""Successor that is no place of the map yet."""
+
+UNKNOWN, OPEN, BLOCKED = 0, 1, 2
+"""What was last sensed of a door."""
+
+
+class Transition(ModelFactor):
+    """Row `place * K + action` of the table `B_s` has the places that the action may lead to.
+
+    Attributes:
+        table: B_s.
+        sensed: `[S, K]` what was last sensed of each door.
+        walked: `[S, K]` whether each way was ever walked.
+    """
+
+    name = "transition"
+
+    def attach(self, context: Context) -> None:
+        """Make it part of a model."""
+        super().attach(context)
+        size, log = len(context.motions), context.changes
+        self.motions, self.rates = context.motions, context.rates
+        self.table = SparseDirichlet(name="B_s", slots=2, rows_each=size, changes=log)
+        self.sensed = Column("sensed", np.int8, width=size, changes=log)
+        self.walked = Column("walked", np.bool_, width=size, changes=log)
+
+    @property
+    def stores(self) -> tuple[Store, ...]:
+        """B_s, and what is noted of the doors."""
+        return self.table, self.sensed, self.walked
+
+    def grow(self, places: int) -> None:
+        """A new place may turn out to be blocked in each direction, or lead somewhere."""
+        old, size, stay = len(self.sensed), len(self.motions), self.motions.stay
+        self.table.resize(places * size)
+        self.sensed.resize(places)
+        self.walked.resize(places)
+        if places > old:
+            keys = np.full((places - old, size, 2), ELSEWHERE)
+            keys[:, :, 0], keys[:, stay, 1] = np.arange(old, places)[:, None], EMPTY
+            prior = np.full(keys.shape, self.context.priors.transition)
+            prior[:, stay, 1] = 0.0
+            self.table.begin(slice(old * size, places * size), keys.reshape(-1, 2), prior.reshape(-1, 2))
+
+    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
+        """Take over the arrays."""
+        self.grow(places)
+        self.table.restore(parts_of("B_s", arrays), outcomes=places)
+        self.sensed.restore(arrays["sensed.values"], least=UNKNOWN, bound=BLOCKED + 1)
+        self.walked.restore(arrays["walked.values"], least=0, bound=2)
+
+    # -- reading -------------------------------------------------------------------------------------------
+
+    def row(self, place: int, action: int) -> int:
+        """Row of B_s for `place` under `action`."""
+        return place * len(self.motions) + action
+
+    def rows(self, places: Ints) -> Ints:
+        """Rows of B_s for `places` under every action, place by place."""
+        size = len(self.motions)
+        return (places[:, None] * size + np.arange(size)).ravel()
+
+    def beyond(self, place: int, action: int) -> int | None:
+        """The place that `action` most probably leads to from `place` if it is not blocked; None if none is known."""
+        alpha = self.table.concentrations(self.row(place, action))
+        others = [(a, -k, k) for k, a in alpha.items() if k >= 0 and k != place]
+        return max(others)[2] if others else None
+
+    def blocked(self, places: Ints) -> Floats:
+        """`[n, K]` P(blocked | s, a) = B_s[s, s, a], within the floor of the doors; zero for `stay`."""
+        size, floor = len(self.motions), self.context.priors.door_floor
+        p = self.table.probability(places.repeat(size), self.rows(places)).reshape(-1, size)
+        np.minimum(np.maximum(p, floor, out=p), 1.0 - floor, out=p)
+        p[:, self.motions.stay] = 0.0
+        return p
+
+    def predict(self, places: Ints, action: int, percept: Percept, *, stays: float) -> Successors:
+        """Where `action` leads from `places`, and how that goes with what is sensed then.
+
+        Who did not get through a door, and now senses it shut, has one thing to explain, not three: that the place is
+        the same, that the pose is, and that the door is shut. The less probable of the first two stays, the others are
+        taken out again.
+
+        Args:
+            places: `[n]` s.
+            action: a.
+            percept: what is sensed after it.
+            stays: probability that the pose stays.
+        """
+        keys, p, _ = self.table.mean(places * len(self.motions) + action)
+        coupling = np.ones(keys.shape)
+        if percept.open is not None and not percept.open[action]:
+            others = self.blocked(places)[:, action, None] * np.maximum(p, stays)
+            np.divide(1.0, others, out=coupling, where=(keys == places[:, None]) & (others > 0.0))
+        return Successors(keys, p, coupling)
+
+    def information(self, places: Ints, steps: int) -> Floats:
+        """`[n, N + 1]` nats that 0..N looks at the doors of a place teach of its rows, summed over the actions.
+
+        A look teaches nothing where a visit has shown all it can, and no place lies beyond.
+        """
+        keys, alpha, _ = self.table.concentration(self.rows(places))
+        shape = len(places), len(self.motions), -1
+        keys, alpha = keys.reshape(shape), alpha.reshape(shape)
+        visited: NDArray[np.bool_] = self.context.visits.visited.values[places]
+        shown = visited[:, None] & (keys == ELSEWHERE).any(axis=2)
+        return (information(alpha, steps) * ~shown[..., None]).sum(axis=1)
+
+    def tables(self, support: Support) -> Iterable[Table]:
+        """B_s[a](s_t, s_t-1), times the coupling; any visited place where the agent was moved."""
+        if support.ahead is None or support.percept.action is None:
+            return
+        name, given = (
+            f"B_s[{self.motions.names[support.percept.action]}]",
+            "" if support.arrival is None else ", moved_t",
+        )
+        values = partial(_values, support.ahead, support.places, support.arrival)
+        yield Table(name, support.scope("s"), values, "transition", f"P(s_t | s_t-1, a_t-1{given})")
+
+    # -- learning ------------------------------------------------------------------------------------------
+
+    def link(self, place: int, action: int, neighbour: int) -> None:
+        """What lies beyond a door has become a place of the map: its slot gets the name."""
+        self.table.rename(self.row(place, action), ELSEWHERE, neighbour)
+
+    def learn(self, previous: int, action: int, next_: int, weight: float) -> None:
+        """A walked transition, weighted by its pairwise posterior; one that went nowhere was blocked (eq. B_up)."""
+        if action == self.motions.stay:
+            return
+        if previous == next_:
+            self.shut(previous, action, weight, changed=True)
+            return
+        forward, reverse = self.rates.possible
+        self.add(next_, previous, action, weight * forward)
+        self.add(previous, next_, self.motions.inverse[action], weight * reverse)
+        if weight > 0.5:
+            self.walked.set((previous, action), True)
+
+    def shut(self, place: int, action: int, weight: float, *, changed: bool) -> None:
+        """The way was found blocked; if that is news, so is its other side."""
+        forward, reverse = self.rates.impossible
+        self.raise_to(place, place, action, -weight * forward)
+        self.sensed.set((place, action), BLOCKED)
+        beyond = self.beyond(place, action)
+        if beyond is None:
+            return
+        self.add(beyond, place, action, weight * forward)
+        if changed:
+            inverse = self.motions.inverse[action]
+            self.raise_to(beyond, beyond, inverse, -weight * reverse)
+            self.add(place, beyond, inverse, weight * reverse)
+
+    def raise_to(self, next_: int, previous: int, action: int, level: float) -> None:
+        """Have counts of `level` at least."""
+        have = self.table.evidence(self.row(previous, action), next_)
+        self.add(next_, previous, action, max(level - have, 0.0))
+
+    def add(self, next_: int, previous: int, action: int, amount: float) -> None:
+        """Add counts, up to the ceiling."""
+        self.table.add(self.row(previous, action), next_, amount, most=self.rates.ceiling)
+
+    def forget(self, keep: float) -> None:
+        """Let all evidence fade by the factor `keep`."""
+        self.table.fade(keep)
+
+
+def _values(ahead: Successors, places: Ints, arrival: Floats | None) -> Floats:
+    """`[n, n']`, or `[n, n', 2]` where the agent may have been moved."""
+    here = ahead.places == places[:, None, None]
+    values = np.einsum("jk,ijk->ij", ahead.probability * ahead.coupling, here)
+    if arrival is None:
+        return values
+    return np.stack([values, np.broadcast_to(arrival[:, None], values.shape)], axis=-1)

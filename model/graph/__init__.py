@@ -1,0 +1,40 @@
+"""The language: discrete factor graphs declared, shown, written and read."""
+
+from __future__ import annotations
+
+from .conditional import ConditionalTable, LearnableTable
+from .export import equation, quoted
+from .factor_graph import FactorGraph
+from .factors import Factor, FloatArray, IntArray, SparseValues, log_bounds, sparse_values
+from .structure import AllEvidence, Evidence, GraphStructure
+from .svg import MOST_DRAWN, graph_svg
+from .tables import LabelledTable, labelled, table
+from .template import Before, Template, before
+from .variables import Variable, shortened
+
+__all__ = [
+    "MOST_DRAWN",
+    "AllEvidence",
+    "Before",
+    "ConditionalTable",
+    "Evidence",
+    "Factor",
+    "FactorGraph",
+    "FloatArray",
+    "GraphStructure",
+    "IntArray",
+    "LabelledTable",
+    "LearnableTable",
+    "SparseValues",
+    "Template",
+    "Variable",
+    "before",
+    "equation",
+    "graph_svg",
+    "labelled",
+    "log_bounds",
+    "quoted",
+    "shortened",
+    "sparse_values",
+    "table",
+]

@@ -1,0 +1,76 @@
+"""Which places were ever entered, and in which order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .changes import Change, Changes
+from .column import Column
+from .errors import CogmapError
+
+
+class Visits:
+    """The places that were entered, in the order of their first visit.
+
+    Attributes:
+        order: the visited places.
+        first: for each place its index among them; -1 where it was never entered.
+        visited: for each place whether it was entered.
+    """
+
+    name = "visits"
+
+    def __init__(self, changes: Changes) -> None:
+        self._changes = changes
+        self.order = Column("visits.order", np.int64)
+        self.first = Column("visits.first", np.int64, fill=-1)
+        self.visited = Column("visits.visited", np.bool_)
+
+    def resize(self, places: int) -> None:
+        """Have so many places."""
+        self.first.resize(places)
+        self.visited.resize(places)
+
+    def note(self, place: int) -> None:
+        """The agent was in `place`."""
+        if not self.visited.values[place]:
+            self.put(place, True)
+            self._changes.append(Change(self, place, False, True))
+
+    def put(self, where: int, value: bool) -> None:
+        """The last visited place, or the next one, without telling the log."""
+        if value:
+            self.first.put(where, self.order.append(where))
+        else:
+            self.order.resize(len(self.order) - 1)
+            self.first.put(where, -1)
+        self.visited.put(where, value)
+
+    def value(self, numbers: Sequence[float]) -> bool:
+        """Whether it was visited, from a file."""
+        return bool(numbers[0])
+
+    def touched(self, where: int) -> Iterable[int]:
+        """The place itself."""
+        return (where,)
+
+    def state(self) -> dict[str, NDArray[np.int64]]:
+        """The places in the order of their first visit, for saving."""
+        return {"order": self.order.values.copy()}
+
+    def restore(self, order: NDArray[np.int64]) -> None:
+        """Take over the visited ones among the places that there are.
+
+        Raises:
+            CogmapError: one is none, or stands twice.
+        """
+        fits = order.ndim == 1 and order.dtype.kind == "i" and len(np.unique(order)) == len(order)
+        if not (fits and bool(((order >= 0) & (order < len(self.visited))).all())):
+            raise CogmapError(f"map: visits does not fit {len(self.visited)} places; save it again")
+        self.order.resize(len(order))
+        self.order.restore(order)
+        self.first.values[order] = np.arange(len(order))
+        self.visited.values[order] = True

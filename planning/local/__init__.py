@@ -1,0 +1,18 @@
+"""The local model of a plan: the tables of the map, cut to the places that policies can lead to, and their cache."""
+
+from .cache import LocalCache
+from .cut import Surroundings, local_model
+from .model import LocalModel
+from .preferences import Preferences
+from .transitions import Transitions
+from .view import MapView
+
+__all__ = [
+    "LocalCache",
+    "LocalModel",
+    "MapView",
+    "Preferences",
+    "Surroundings",
+    "Transitions",
+    "local_model",
+]

@@ -1,0 +1,176 @@
+"""Cuts out of the map what a plan can see: the places within look-ahead of the belief, and their tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
+from .cache import LocalCache, PlaceRows
+from .model import Floats, Ints, LocalModel
+from .preferences import Preferences
+from .transitions import Transitions, likeliest
+from .view import MapView
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What a policy generator is shown before the local model is cut, to ask for places further off.
+
+    Attributes:
+        map: the map.
+        cache: of its places.
+        starts: where the agent may be.
+        near: all places within look-ahead of these, ascending.
+        preferences: what is hoped for.
+    """
+
+    map: MapView
+    cache: LocalCache
+    starts: Ints
+    near: Ints
+    preferences: Preferences
+
+
+def nothing_beyond(around: Surroundings) -> Ints:
+    """No place further off."""
+    return around.near[:0]
+
+
+def local_model(
+    map_: MapView,
+    places: Ints,
+    belief: Floats,
+    *,
+    open_: Sequence[bool],
+    look_ahead: int,
+    preferences: Preferences | None = None,
+    discount: float = 1.0,
+    information_weight: float = 1.0,
+    starts: int = 32,
+    cache: LocalCache | None = None,
+    beyond: Callable[[Surroundings], Ints] = nothing_beyond,
+) -> LocalModel:
+    """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
+
+    Everything within `look_ahead` steps is in it, and what `beyond` asks for. Of a belief over more than `starts`
+    places the likeliest remain (see `LocalModel.dropped`). What a `cache` of the map has kept from the last step is not
+    worked out again.
+
+    Raises:
+        CogmapError: the cache is of another map or tells of fewer visits than `look_ahead`, or `starts` is below one.
+    """
+    cache = cache or LocalCache(map_, look_ahead)
+    cache.check(map_, look_ahead)
+    if starts < 1:
+        raise CogmapError(f"plan: starts is {starts}; give 1 or more places to set out from")
+    cache.refresh()
+    preferences = preferences or Preferences()
+    places, belief, dropped = _likeliest_starts(places, belief, starts)
+    near = cache.within(places, look_ahead)
+    far = beyond(Surroundings(map_, cache, places, near, preferences))
+    within = np.union1d(near, far) if len(far) else near
+    at, local = within.searchsorted(places), np.append(within, ELSEWHERE)
+    q = np.zeros(len(local))
+    q[at] = belief
+    A, multiplicity, log_C = _sights(map_, within, preferences)
+    rows = cache.rows(within)
+    _sense(rows, within, at, open_)
+    rows.blocked[:, map_.motions.stay] = 0.0
+    rows.position[-1] = np.nan
+    rows.sights[-1] = cache.unseen()
+    B, successor = _transitions(within, rows, map_.motions.stay)
+    entered = np.zeros(len(local), dtype=np.bool_)
+    entered[:-1] = map_.visited[within]
+    visits = slice(look_ahead + 1)
+    return LocalModel(
+        motions=map_.motions,
+        look_ahead=look_ahead,
+        places=local,
+        belief=q,
+        A=A,
+        multiplicity=multiplicity,
+        log_C=log_C,
+        log_C_place=preferences.log_C_place(local),
+        B=B,
+        blocked=rows.blocked,
+        collision_cost=preferences.collision_cost,
+        information={
+            "sight": rows.sights[:, visits],
+            "position": rows.positions[:, visits],
+            "transition": rows.ways[:, visits],
+        },
+        successor=successor,
+        entered=entered,
+        position=rows.position,
+        discount=discount,
+        information_weight=information_weight,
+        dropped=dropped,
+    )
+
+
+def _likeliest_starts(places: Ints, belief: Floats, most: int) -> tuple[Ints, Floats, float]:
+    """The likeliest places, ascending, their share of the belief, and the belief in the others."""
+    if len(places) <= most:
+        return places, belief, 0.0
+    # of equals, some from everywhere: places with near numbers are near each other, and look alike
+    order = np.lexsort((np.arange(len(places)) * 0.6180339887498949 % 1.0, -belief))
+    kept = np.sort(order[:most])
+    mass = float(belief[kept].sum())
+    return places[kept], belief[kept] / mass, max(float(belief.sum()) - mass, 0.0)
+
+
+def _sights(map_: MapView, places: Ints, preferences: Preferences) -> tuple[Floats, Floats, Floats]:
+    """A over the outcomes that places of the model (or preferences) tell apart, and one row for all the rest."""
+    keys, p, other = map_.A_o.mean(places)
+    preferred, log_preferred, log_other = preferences.log_C(map_.A_o.outcomes)
+    row, slot = np.nonzero(keys >= 0)
+    outcomes, index = distinct(np.concatenate([keys[row, slot], preferred]))
+    apart, total = len(outcomes), map_.A_o.outcomes
+    rest = total - apart
+    A = np.full((apart + 1, len(places) + 1), 1.0 / total)
+    A[:, :-1] = other
+    A[index[: len(row)], row] = p[row, slot]
+    A[-1] *= rest
+    log_C = np.full(apart + 1, log_other)
+    log_C[index[len(row) :]] = log_preferred
+    multiplicity = np.ones(apart + 1)
+    multiplicity[-1] = rest
+    return (A, multiplicity, log_C) if rest else (A[:-1], multiplicity[:-1], log_C[:-1])
+
+
+def _sense(rows: PlaceRows, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:
+    """Let the ways of `sensing` be as they are sensed now: shut, or not the place itself beyond."""
+    here, shut = places[sensing], ~np.array(open_, dtype=np.bool_)
+    keys, p = rows.successors[sensing], rows.probability[sensing]
+    own = keys == here[:, None, None]
+    beyond = (p * ~own).sum(axis=2, keepdims=True)
+    p = np.where(own & (beyond > 0.0), 0.0, p / np.where(beyond > 0.0, beyond, 1.0))
+    keys[:, shut], p[:, shut] = EMPTY, 0.0
+    keys[:, shut, 0], p[:, shut, 0] = here[:, None], 1.0
+    rows.successors[sensing], rows.probability[sensing] = keys, p
+    rows.likely[sensing], rows.blocked[sensing] = likeliest(keys, p, here, ELSEWHERE)
+
+
+def _transitions(places: Ints, rows: PlaceRows, stay: int) -> tuple[Transitions, Ints]:
+    """B and the likeliest successors over `places` and, last, everywhere never imagined, which leads to itself."""
+    size = len(places)
+    rows.successors[-1], rows.probability[-1, :, 0] = ELSEWHERE, 1.0
+    rows.likely[-1] = ELSEWHERE
+    successor = np.where(rows.likely >= 0, _local(places, rows.likely), -1)
+    successor[:-1, stay] = np.arange(size)
+    return Transitions(_local(places, rows.successors), rows.probability), successor
+
+
+def _local(places: Ints, keys: Ints) -> Ints:
+    """Places of the map by their local number, the last for one never imagined.
+
+    One that is not in the model becomes the place that leads to it (the first axis): no policy is meant to go there.
+    """
+    size = len(places)
+    at = places.searchsorted(keys)
+    at[at == size] = 0
+    here = np.arange(len(keys)).reshape(-1, *(1,) * (keys.ndim - 1))
+    return np.where(places[at] == keys, at, np.where(keys == ELSEWHERE, size, here))

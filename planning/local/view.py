@@ -1,0 +1,58 @@
+"""All that a planner reads of a map: `CognitiveMap` has it, and so may anything else that is to be planned with."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...model import Motions, SparseDirichlet
+
+Ints = NDArray[np.int64]
+
+
+class MapView(Protocol):
+    """A map as a planner sees it: places by number, and what is believed of each.
+
+    Attributes:
+        motions: the actions.
+        A_o: P(sight | place), a row a place.
+        A_p: P(position | place), a row a place.
+        B_s: P(next place | place, action), its rows named by `rows_of`; the outcome -1 is a place never imagined.
+        visits: what `changed_places` is asked about, for first visits.
+    """
+
+    motions: Motions
+    A_o: SparseDirichlet
+    A_p: SparseDirichlet
+    B_s: SparseDirichlet
+    visits: Any
+
+    @property
+    def places(self) -> range:
+        """The places, by number."""
+        ...
+
+    @property
+    def visited(self) -> NDArray[np.bool_]:
+        """`[S]` whether each place was ever entered."""
+        ...
+
+    @property
+    def visited_places(self) -> Ints:
+        """The places ever entered."""
+        ...
+
+    def rows_of(self, places: Ints) -> Ints:
+        """Rows of `B_s` for `places` under every action, place by place."""
+        ...
+
+    def position(self, place: int) -> Sequence[float] | None:
+        """Where a place is; None where nobody knows."""
+        ...
+
+    def changed_places(self, cursor: int, *stores: Any) -> tuple[Collection[int] | None, int]:
+        """The places of which something in these tables changed since `cursor`, None for any, and the next cursor."""
+        ...

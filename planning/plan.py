@@ -1,0 +1,92 @@
+"""The record of a plan, and the posterior over policies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..model import CogmapError
+from .choices import Choice
+from .energy import ExpectedFreeEnergy
+from .local import LocalModel
+from .policies import PolicyGenerator
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What was considered, what each policy was worth, and what was chosen.
+
+    Attributes:
+        model: the local model that the plan was made with.
+        policies: `[P, L]` action indices.
+        expected_free_energy: G term by term, each `[P]`, in nats.
+        probability: `[P]` P(policy) (eq. 6).
+        chosen: index of the chosen policy.
+        action: its first action, the one to take now.
+        cut: prefixes that the bound on the search left out.
+        generator: what made the policies.
+        choice: what chose among them.
+    """
+
+    model: LocalModel
+    policies: Ints
+    expected_free_energy: ExpectedFreeEnergy
+    probability: Floats
+    chosen: int
+    action: int
+    cut: int
+    generator: PolicyGenerator
+    choice: Choice
+
+    @property
+    def policy(self) -> Ints:
+        """`[L]` the chosen action sequence."""
+        return self.policies[self.chosen]
+
+    @property
+    def names(self) -> list[str]:
+        """The chosen action sequence by name."""
+        return [self.model.motions.names[action] for action in self.policy.tolist()]
+
+    @property
+    def places(self) -> Ints:
+        """`[R]` the places of the map that the plan could see."""
+        return self.model.places
+
+    @property
+    def dropped(self) -> float:
+        """Belief in places that the plan left out: an agent that may be anywhere plans from the likeliest ones."""
+        return self.model.dropped
+
+    @property
+    def action_probability(self) -> Floats:
+        """`[K]` P(first action), the sum over the policies that begin with it."""
+        first = self.policies[:, 0, None] == np.arange(len(self.model.motions))
+        return self.probability @ first
+
+
+def policy_posterior(G: ArrayLike, *, precision: float = 16.0) -> Floats:
+    """P(policy) = softmax(-precision G), once (eq. 6).
+
+    Args:
+        G: `[P]` expected free energies, nats.
+        precision: gamma; 0 makes all policies alike.
+
+    Returns:
+        `[P]`, sums to one.
+
+    Raises:
+        CogmapError: `G` is empty or not finite, `precision` is negative or not finite.
+    """
+    cost = np.asarray(G, dtype=np.float64)
+    if cost.ndim != 1 or not len(cost) or not np.isfinite(cost).all():
+        raise CogmapError("policy_posterior: G must be a non-empty vector of finite numbers; check the tables")
+    if not (np.isfinite(precision) and precision >= 0.0):
+        raise CogmapError(f"policy_posterior: precision is {precision}; give a finite number, 0 or more")
+    weight = np.exp(-precision * (cost - cost.min()))
+    return weight / weight.sum()

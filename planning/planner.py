@@ -1,0 +1,132 @@
+"""The planner: what makes policies, what they are judged by, and how one is chosen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model import CogmapError, Motions
+from .choices import Choice, Outward
+from .local import LocalCache, LocalModel, MapView, Preferences, local_model
+from .plan import Plan, policy_posterior
+from .policies import MapGuided, PolicyGenerator
+from .rollout import evaluate
+from .terms import KINDS, TERMS, Term
+
+
+@dataclass(frozen=True, kw_only=True)
+class Planner:
+    """How an agent plans. Its parts are objects; a part of your own is a class with the methods of its base.
+
+    Attributes:
+        policies: which action sequences are compared.
+        terms: what their expected free energy is the sum of, any number, each with a name of its own.
+        choice: which of them is followed.
+
+    Raises:
+        CogmapError: a part is of another kind, or terms share a name.
+    """
+
+    policies: PolicyGenerator = field(default_factory=MapGuided)
+    terms: Sequence[Term] = TERMS
+    choice: Choice = field(default_factory=Outward)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "terms", tuple(self.terms))
+        parts: list[tuple[str, Any, type]] = [
+            ("policies", self.policies, PolicyGenerator),
+            ("choice", self.choice, Choice),
+        ]
+        for name, part, kind in (*parts, *(("terms", term, Term) for term in self.terms)):
+            if not isinstance(part, kind):
+                raise CogmapError(
+                    f"planner: {name} has {part!r}; give an object of a class that extends {kind.__name__}"
+                )
+        names = [term.name for term in self.terms]
+        if not names or len(set(names)) < len(names):
+            given = ", ".join(names) or "none"
+            raise CogmapError(f"planner: the terms are {given}; give one or more, each with a name of its own")
+        for term in self.terms:
+            if term.kind not in KINDS or abs(term.sign) != 1.0:
+                raise CogmapError(
+                    f"planner: term {term.name} is of kind {term.kind!r} and sign {term.sign}; "
+                    f"use one of {', '.join(KINDS)}, and 1.0 or -1.0"
+                )
+
+    def check(self, motions: Motions, look_ahead: int) -> None:
+        """Refuse, before any work, what could not be planned: see `PolicyGenerator.check`."""
+        self.policies.check(motions, look_ahead)
+
+    def plan(
+        self,
+        map_: MapView,
+        places: NDArray[np.int64],
+        belief: NDArray[np.float64],
+        *,
+        open_: Sequence[bool],
+        look_ahead: int,
+        rng: np.random.Generator,
+        preferences: Preferences | None = None,
+        precision: float = 16.0,
+        discount: float = 1.0,
+        information_weight: float = 1.0,
+        starts: int = 32,
+        cache: LocalCache | None = None,
+    ) -> Plan:
+        """Cut the local model out of a map, make policies, evaluate them, choose one.
+
+        Args:
+            map_: what is planned with.
+            places: `[n]` where the agent may be, ascending.
+            belief: `[n]` Q(s) of each.
+            open_: for each action, whether its way is sensed open now.
+            look_ahead: steps that policies look ahead.
+            rng: breaks ties, and draws.
+            preferences: what is hoped for; nothing, unless told.
+            precision: gamma of eq. 6.
+            discount: weight of each step relative to the one before.
+            information_weight: weight of every information gain.
+            starts: places to set out from, at most.
+            cache: of the map, kept from plan to plan.
+
+        Raises:
+            CogmapError: what `local_model`, the generator or `policy_posterior` raise.
+        """
+        model = local_model(
+            map_,
+            places,
+            belief,
+            open_=open_,
+            look_ahead=look_ahead,
+            preferences=preferences,
+            discount=discount,
+            information_weight=information_weight,
+            starts=starts,
+            cache=cache,
+            beyond=self.policies.beyond,
+        )
+        return self._decide(model, precision, rng)
+
+    def decide(self, model: LocalModel, *, precision: float = 16.0, rng: np.random.Generator) -> Plan:
+        """The same with tables that are given.
+
+        Raises:
+            CogmapError: a table that does not fit (see `LocalModel.check`), and what `plan` raises.
+        """
+        model.check()
+        return self._decide(model, precision, rng)
+
+    def _decide(self, model: LocalModel, precision: float, rng: np.random.Generator) -> Plan:
+        policies = self.policies.make(model)
+        energy = evaluate(model, policies, self.terms)
+        G = energy.G
+        probability = policy_posterior(G, precision=precision)
+        chosen = self.choice.choose(model, policies.actions, G, probability, rng)
+        action = int(policies.actions[chosen, 0])
+        return Plan(
+            model, policies.actions, energy, probability, chosen, action, policies.cut, self.policies, self.choice
+        )

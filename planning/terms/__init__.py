@@ -1,0 +1,38 @@
+"""The terms of expected free energy, one a file, and the paper's list of them."""
+
+from .base import KINDS, Term
+from .collision import Collision
+from .learned import Learned
+from .plain import Step
+from .position_information import PositionInformation
+from .rolled import Rollout, Staying
+from .sight_information import SightInformation
+from .state_information import StateInformation
+from .transition_information import TransitionInformation
+from .utility import Utility
+
+TERMS: tuple[Term, ...] = (
+    StateInformation(),
+    SightInformation(),
+    PositionInformation(),
+    TransitionInformation(),
+    Utility(),
+    Collision(),
+)
+"""The terms of the paper, in the order in which they are shown."""
+
+__all__ = [
+    "KINDS",
+    "TERMS",
+    "Collision",
+    "Learned",
+    "PositionInformation",
+    "Rollout",
+    "SightInformation",
+    "StateInformation",
+    "Staying",
+    "Step",
+    "Term",
+    "TransitionInformation",
+    "Utility",
+]

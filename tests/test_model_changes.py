@@ -1,0 +1,229 @@
+"""The log of changes: read by cursor, undone to a mark, forked into branches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from cogmap.model import Change, Changes, CogmapError, CognitiveMap, GrowthEvent, Motions, map_state
+from cogmap.model.changes import KEPT, STEPS
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from walks import GRID
+
+writes = st.lists(st.tuples(st.integers(0, 7), st.integers(0, 9), st.integers(0, 4), st.floats(0.1, 2.0)), max_size=12)
+
+
+def write(map_: CognitiveMap, ops: list[tuple[int, int, int, float]]) -> None:
+    """Any of the ways in which a map changes."""
+    for op, at, action, weight in ops:
+        place = at % len(map_.places)
+        if op == 0:
+            there = (at, action)
+            if map_.place_at(there) is None:
+                map_.new_place(there, step=0)
+        elif op == 1:
+            map_.new_place(None, step=0)
+        elif op == 2:
+            map_.mark_visited(place)
+        elif op == 3:
+            map_.sensors["sight"].learn(place, map_.sensors["sight"].read(action, step=0), weight)
+        elif op == 4:
+            map_.sensors["open"].learn(place, [bool(at >> i & 1) for i in range(4)] + [True], min(weight, 1.0))
+        elif op == 5:
+            beyond = map_.beyond(place, action)
+            map_.transitions.learn(place, action, place if beyond is None else beyond, min(weight, 1.0))
+        elif op == 6:
+            map_.transitions.forget(0.5)
+        elif map_.position(place) is None and map_.place_at((9, place)) is None:
+            map_.bind(place, (9, place), step=0)
+
+
+def begun() -> CognitiveMap:
+    map_ = CognitiveMap(Motions.of(GRID))
+    map_.new_place((0, 0), step=0)
+    for position in [(x, y) for x in range(10) for y in range(10)]:  # what is met stays met: so that all is the same
+        map_.pose.new_position(position, step=0)
+    for sight in range(5):
+        map_.sensors["sight"].read(sight, step=0)
+    return map_
+
+
+def stored(map_: CognitiveMap) -> dict[str, np.ndarray]:
+    """Everything that is undone, without the slots that nothing uses."""
+    arrays = {name: array for name, array in map_state(map_)[1].items() if not name.startswith(("changes", "growth"))}
+    for table in ("A_o", "A_p", "B_s"):
+        used = (arrays[f"{table}.keys"] != -2).any(axis=0)
+        for part in ("keys", "prior", "evidence"):
+            arrays[f"{table}.{part}"] = arrays[f"{table}.{part}"][:, used]
+    return arrays
+
+
+def assert_stored(map_: CognitiveMap, arrays: dict[str, np.ndarray]) -> None:
+    for name, array in stored(map_).items():
+        np.testing.assert_array_equal(array, arrays[name], err_msg=name)
+
+
+@given(parts=st.lists(writes, min_size=2, max_size=6), back=st.integers(0, 5), again=writes)
+@settings(max_examples=60, deadline=None)
+def test_undo_restores_exactly(parts: list, back: int, again: list) -> None:  # type: ignore[type-arg]
+    map_, marks, states = begun(), list[int](), list[dict[str, np.ndarray]]()
+    for part in parts:
+        marks.append(map_.changes.mark())
+        states.append(stored(map_))
+        write(map_, part)
+    at = back % len(parts)
+    map_.changes.undo(marks[at])
+    assert_stored(map_, states[at])
+    write(map_, again)
+    map_.changes.undo(marks[at // 2])  # through what was undone already
+    assert_stored(map_, states[at // 2])
+
+
+@given(trunk=writes, one=writes, two=writes, deeper=writes, other=writes)
+@settings(max_examples=60, deadline=None)
+def test_branches_are_what_was_written_on_them(  # type: ignore[type-arg]
+    trunk: list, one: list, two: list, deeper: list, other: list
+) -> None:
+    map_ = begun()
+    log = map_.changes
+    write(map_, trunk)
+    root, states = log.branch, {}
+    states[root] = stored(map_)
+    first = log.fork()
+    write(map_, one)
+    states[first] = stored(map_)
+    log.switch(root)
+    second = log.fork()
+    write(map_, two)
+    states[second] = stored(map_)
+    third = log.fork()
+    write(map_, deeper)
+    states[third] = stored(map_)
+    for branch in (first, third, second, root, third, first, first):
+        log.switch(branch)
+        assert log.branch is branch
+        assert_stored(map_, states[branch])
+    write(map_, other)  # a branch without children goes on
+    grown = stored(map_)
+    log.switch(third)
+    log.switch(first)
+    assert_stored(map_, grown)
+    log.settle()
+    with pytest.raises(CogmapError, match="cut off by settle"):
+        log.switch(third)
+
+
+def test_a_branch_costs_what_it_differs_in() -> None:
+    map_ = begun()
+    for place in range(2000):
+        map_.new_place((20, place), step=0)
+    root, branch = map_.changes.branch, map_.changes.fork()
+    map_.mark_visited(5)
+    before = len(map_.changes)
+    map_.changes.switch(root)
+    map_.changes.switch(branch)
+    assert len(branch.changes) == 1
+    assert len(map_.changes) == before + 2
+
+
+def test_a_branch_that_others_build_on_stays_as_it_is() -> None:
+    map_ = begun()
+    root, branch = map_.changes.branch, map_.changes.fork()
+    map_.changes.switch(root)
+    map_.mark_visited(0)
+    with pytest.raises(CogmapError, match="was forked was written to"):
+        map_.changes.switch(branch)
+
+
+def test_one_undoes_what_the_branch_has_written_and_no_more() -> None:
+    map_ = begun()
+    early = map_.changes.mark()
+    map_.new_place(None, step=0)
+    map_.changes.fork()
+    late = map_.changes.mark()
+    map_.mark_visited(0)
+    with pytest.raises(CogmapError, match="older than this branch; switch to its parent"):
+        map_.changes.undo(early)
+    map_.changes.undo(late)
+    assert not map_.visited.any()
+
+
+@pytest.mark.parametrize("mark", [7, -1, 10**6])
+def test_what_is_no_mark_is_refused(mark: int) -> None:
+    map_ = begun()
+    with pytest.raises(CogmapError, match=r"no mark that is kept; there are none, call mark\(\)"):
+        map_.changes.undo(mark)
+    first = map_.changes.mark()
+    for _ in range(STEPS):
+        map_.new_place(None, step=0)
+        map_.changes.mark()
+    with pytest.raises(CogmapError, match="the oldest is"):
+        map_.changes.undo(first)
+
+
+def test_readers_hear_of_everything_once() -> None:
+    map_ = begun()
+    assert map_.changes.since(-1) == (None, len(map_.changes))
+    entries, cursor = map_.changes.since(len(map_.changes))
+    assert entries == []
+    place = map_.new_place((50, 50), step=3)
+    map_.mark_visited(place)
+    entries, cursor = map_.changes.since(cursor)
+    assert entries is not None
+    assert [entry.kind for entry in entries if isinstance(entry, GrowthEvent)] == ["place", "position"]
+    assert {entry.store.name for entry in entries if isinstance(entry, Change)} == {
+        "places",
+        "position_of",
+        "place_at",
+        "A_p",
+        "visits",
+    }
+    assert map_.changes.since(cursor) == ([], cursor)
+
+
+CHANGES: dict[str, tuple[Callable[[CognitiveMap], object], set[int] | None, set[int] | None]] = {
+    "nothing": (lambda map_: None, set(), set()),
+    "a count": (lambda map_: map_.A_o.add(3, 1, 1.0), {3}, set()),
+    "a transition": (lambda map_: map_.B_s.add(map_.row(2, 1), 2, 1.0), {2}, {2}),
+    "a visit": (lambda map_: map_.mark_visited(4), {4}, {4}),
+    "a door": (lambda map_: map_.transitions.sensed.set((1, 0), 2), {1}, set()),
+    "fading": (lambda map_: map_.B_s.fade(0.5), None, None),
+    "a place": (lambda map_: map_.new_place(None, step=0), {6}, {6}),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_caches_hear_which_places_changed(name: str) -> None:
+    change, places, of_doors = CHANGES[name]
+    map_ = begun()
+    for _ in range(5):
+        map_.new_place(None, step=0)
+    assert map_.changed_places(-1)[0] is None
+    _, cursor = map_.changed_places(-1)
+    change(map_)
+    assert map_.changed_places(cursor)[0] == places
+    assert map_.changed_places(cursor, map_.B_s, map_.visits)[0] == of_doors
+
+
+@pytest.mark.parametrize("count", [KEPT, 5 * KEPT])
+def test_a_log_that_forgot_says_so(count: int) -> None:
+    log, event = Changes(), GrowthEvent(0, "time", 0)
+    for _ in range(count):
+        log.append(event)
+    entries, now = log.since(0)
+    assert now == len(log) == count
+    assert (entries is None) == (count > KEPT)
+    assert len(log.since(count - KEPT)[0] or ()) == KEPT
+
+
+def test_memory_is_bounded_by_the_steps_that_can_be_undone() -> None:
+    log, event = Changes(), GrowthEvent(0, "time", 0)
+    marks: list[int] = []
+    for _ in range(400):
+        marks.append(log.mark())
+        for _ in range(100):
+            log.append(event)
+    assert len(log.since(marks[-STEPS])[0] or ()) == 100 * STEPS
+    assert log.since(marks[-4 * STEPS])[0] is None

@@ -1,0 +1,60 @@
+from __future__ import annotations
+
+import gymnasium as gym
+import pytest
+from cogmap.worlds import (
+    MAZES,
+    CanClose,
+    CanDisplace,
+    Chart,
+    HasChart,
+    World,
+    WorldError,
+    load_world,
+    offered,
+    place_of,
+    torus,
+    world_of,
+)
+
+
+def test_a_maze_offers_everything_through_wrappers() -> None:
+    world = gym.make("cogmap/3x3-v0")
+    for kind in (HasChart, CanDisplace, CanClose):
+        assert offered(world, kind, "this") is world.unwrapped
+    assert isinstance(world.unwrapped, World)
+    assert isinstance(MAZES["3x3"], Chart)
+    assert offered(world, HasChart, "this").chart is MAZES["3x3"]
+
+
+def test_what_a_world_does_not_offer_is_named() -> None:
+    with pytest.raises(WorldError, match=r"kidnapping needs a world that is a cogmap\.worlds\.CanDisplace"):
+        offered(gym.make("CartPole-v1"), CanDisplace, "kidnapping")
+
+
+def test_a_chart_makes_a_world() -> None:
+    assert world_of(MAZES["donut"]).maze is MAZES["donut"]
+    layout = torus(2, 3).layout
+    assert world_of(layout).chart is layout
+    with pytest.raises(WorldError, match="no world can be made of a dict"):
+        world_of({})  # type: ignore[arg-type]
+
+
+def test_info_tells_the_place_or_an_error_says_how_to() -> None:
+    world = load_world("3x3")
+    _, info = world.reset(options={"start": (1, 2)})
+    assert place_of(info) == world.place == (1, 2)
+    assert place_of({"place": "hall"}) == "hall"
+    with pytest.raises(WorldError, match="tells no place"):
+        place_of({})
+
+
+def test_successors_of_a_maze_are_its_true_transitions() -> None:
+    for maze in MAZES.values():
+        for room in maze.rooms:
+            ahead = maze.successors(room)
+            assert list(ahead) == ["up", "down", "left", "right", "stay"]
+            assert {other for other in ahead.values() if other != room} == set(maze.neighbours(room))
+            assert ahead["stay"] == room
+    with pytest.raises(WorldError, match="no room"):
+        MAZES["t_maze"].successors((1, 0))

@@ -1,0 +1,88 @@
+"""A graph as it was written: nodes and edges with whatever attributes they have."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from reprlib import repr as shown
+from typing import TYPE_CHECKING, Any
+
+from ..errors import WorldError
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+_LONGEST = 32  # parts of a list that is a label
+
+Attributes = Mapping[str, Any]
+Edges = Sequence[tuple[Attributes, bool]]
+"""The attributes of each way, and whether it is an undirected edge walked against how it was written."""
+
+
+@dataclass(frozen=True, slots=True)
+class RawGraph:
+    """Nodes and edges before anybody has looked at them.
+
+    Attributes:
+        name: what the graph is called.
+        source: what errors call it, such as the path of its file.
+        directed: whether an edge leads one way only.
+        attributes: of the graph.
+        nodes: the id and the attributes of each.
+        edges: source, target and attributes of each.
+    """
+
+    name: str
+    source: str
+    directed: bool
+    attributes: Attributes
+    nodes: Sequence[tuple[Any, Attributes]]
+    edges: Sequence[tuple[Any, Any, Attributes]]
+
+    @classmethod
+    def of(cls, graph: nx.Graph[Any], *, name: str, source: str) -> RawGraph:
+        """The same of a networkx graph, directed or not, multigraph or not."""
+        return cls(
+            name, source, graph.is_directed(), graph.graph, list(graph.nodes(data=True)), list(graph.edges(data=True))
+        )
+
+    def ways(self) -> Iterator[tuple[Any, Any, Attributes, bool]]:
+        """Each way: from, to, attributes, and whether it is an undirected edge walked against how it was written."""
+        for source, target, attributes in self.edges:
+            yield source, target, attributes, False
+            if not self.directed and source != target:
+                yield target, source, attributes, True
+
+
+def label(value: Any, where: str, *, depth: int = 3) -> Any:
+    """A value as a label: lists become tuples.
+
+    Raises:
+        WorldError: it is missing, not finite, none of a word, a number or a short list of them.
+    """
+    if isinstance(value, list | tuple) and depth and len(value) <= _LONGEST:  # pyright: ignore[reportUnknownArgumentType]
+        return tuple(label(part, where, depth=depth - 1) for part in value)  # pyright: ignore[reportUnknownVariableType]
+    if not isinstance(value, str | int | float) or (isinstance(value, float) and not math.isfinite(value)):
+        raise WorldError(f"{where} is {shown(value)}; use a word, a finite number, or a short list of them")
+    return value
+
+
+def number(value: Any, where: str) -> float:
+    """A finite number, also where it is written as text.
+
+    Raises:
+        WorldError: it is none.
+    """
+    try:
+        found = math.nan if isinstance(value, bool) else float(value)
+    except (TypeError, ValueError, OverflowError):
+        found = math.nan
+    if not math.isfinite(found):
+        raise WorldError(f"{where} is {shown(value)}; use a finite number")
+    return found
+
+
+def some(names: Sequence[Any], *, most: int = 5) -> str:
+    """The first few names, for messages."""
+    return ", ".join(f"{shown(name)}" for name in names[:most]) + (", ..." if len(names) > most else "")
