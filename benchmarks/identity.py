@@ -11,11 +11,13 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
 from cogmap.inference.hypotheses import Tracker, TrackerOptions
+from cogmap.inference.hypotheses.rates import ASTRAY, FAILS, MOVED, SIGHT_MISREAD, WAY_MISREAD
 from cogmap.worlds import load_world
 from identity_explorer import Explorer
 from identity_world import Noise, Rooms, World, behaviours, grid, judge, room_of, scheme
@@ -104,7 +106,7 @@ def stable(history: list[bool]) -> int | None:
     return k if k < len(history) else None
 
 
-def run(row: Row, seed: int, options: TrackerOptions) -> dict[str, object]:
+def run(row: Row, seed: int, options: TrackerOptions) -> dict[str, Any]:
     rooms = row.rooms(seed)  # type: ignore[operator]
     rng = np.random.default_rng(990_000 + seed)
     world = World(rooms, int(rng.integers(len(rooms.sights))), rng, row.noise, doors=row.doors)
@@ -152,15 +154,45 @@ def run(row: Row, seed: int, options: TrackerOptions) -> dict[str, object]:
     start = moves[-1] if moves else 0
     wrong_sure = sum(1 for p, ok in bins if p >= 0.99 and not ok)
     sure = sum(1 for p, _ in bins if p >= 0.99)
+    since = stable(exact)
+    rates = (("sight", SIGHT_MISREAD), ("door", WAY_MISREAD), ("fails", FAILS), ("astray", ASTRAY), ("moved", MOVED))
     return {
-        "seed": seed, "exact": exact[-1], "from": stable(exact), "after": None if stable(exact) is None else max(0, stable(exact) - start),
-        "places": last.places, "size": h.size, "right": last.right, "known": round(last.known, 3), "visited": last.visited, "seen_all": all_seen,
-        "sure": sure, "wrong_sure": wrong_sure,
+        "seed": seed,
+        "exact": exact[-1],
+        "from": since,
+        "after": None if since is None else max(0, since - start),
+        "places": last.places,
+        "size": h.size,
+        "right": last.right,
+        "known": round(last.known, 3),
+        "visited": last.visited,
+        "seen_all": all_seen,
+        "sure": sure,
+        "wrong_sure": wrong_sure,
         "here_late": round(float(np.mean([ok for _, ok in bins[200:]])), 3) if len(bins) > 200 else None,
-        "alive": round(float(np.mean(alive)), 1), "ms": round(1000 * spent / (steps + 1), 2), "certainty": round(bins[-1][0], 3),
-        "rates": {name: round(h.counts.mean(k), 3) for k, name in ((1, "sight"), (2, "door"), (3, "fails"), (4, "astray"), (5, "moved"), (6, "elsewhere"))},
+        "alive": round(float(np.mean(alive)), 1),
+        "ms": round(1000 * spent / (steps + 1), 2),
+        "certainty": round(bins[-1][0], 3),
+        "rates": {name: round(h.counts.mean(rate), 3) for name, rate in rates},
         "bins": bins,
-    }  # fmt: skip
+    }
+
+
+def summary(name: str, results: list[dict[str, Any]]) -> str:
+    """What the runs of a row come to, in a line."""
+    after = sorted(r["after"] for r in results if r["after"] is not None)
+    seen = [r["seen_all"] for r in results if r["seen_all"] is not None]
+    rates = {k: round(float(np.mean([r["rates"][k] for r in results])), 3) for k in results[0]["rates"]}
+    parts = (
+        f"exact {sum(bool(r['exact']) for r in results)}/{len(results)}",
+        f"from median {np.median(after) if after else None}, latest {after[-1] if after else None}",
+        f"all seen {np.mean(seen) if seen else None} ({len(seen)})",
+        f"hypotheses {np.mean([r['alive'] for r in results]):.1f}",
+        f"ms {np.mean([r['ms'] for r in results]):.2f}",
+        f"sure {sum(r['sure'] for r in results)}, of these wrong {sum(r['wrong_sure'] for r in results)}",
+        f"right late {np.mean([r['here_late'] or 0 for r in results]):.3f}",
+    )
+    return f"{name}: {'; '.join(parts)}; rates {rates}"
 
 
 def main() -> None:
@@ -184,16 +216,7 @@ def main() -> None:
     for name in names:
         results = [run(table[name], seed, options) for seed in range(first, last + 1)]
         everything[name] = results
-        froms = sorted(r["after"] for r in results if r["after"] is not None)
-        good = sum(bool(r["exact"]) for r in results)
-        rates = {k: round(float(np.mean([r["rates"][k] for r in results])), 3) for k in results[0]["rates"]}
-        seen = [r["seen_all"] for r in results if r["seen_all"] is not None]
-        print(
-            f"{name}: exact {good}/{len(results)} from median {np.median(froms) if froms else None} max {froms[-1] if froms else None}"
-            f" seen {np.mean(seen) if seen else None} ({len(seen)}) alive {np.mean([r['alive'] for r in results]):.1f} ms {np.mean([r['ms'] for r in results]):.2f}"
-            f" sure {sum(r['sure'] for r in results)} wrong {sum(r['wrong_sure'] for r in results)} late {np.mean([r['here_late'] or 0 for r in results]):.3f} {rates}",
-            flush=True,
-        )
+        print(summary(name, results), flush=True)
         for r in results:
             if args.v or not r["exact"]:
                 print("   ", {k: v for k, v in r.items() if k not in ("bins", "rates")})

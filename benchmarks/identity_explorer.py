@@ -37,7 +37,7 @@ def telling(tracker: Tracker, *, depth: int = 8, most: int = 400) -> tuple[int |
         for way in range(tracker.scheme.count):
             ahead, classes = [], {}
             for h, number, w in zip(top, state, weights, strict=True):
-                to, p = believed(h, number, way)
+                to, _ = believed(h, number, way)
                 seen_there = expected(h, to, way)
                 classes[seen_there] = classes.get(seen_there, 0.0) + w
                 ahead.append(number if to == NOWHERE else to)
@@ -68,6 +68,7 @@ class Explorer:
         self.walked: dict[tuple[int, int], int] = {}
 
     def act(self) -> int:
+        """The next action."""
         h = self.tracker.best
         told, worth = telling(self.tracker) if len(self.tracker.hypotheses) > 1 else (None, 0.0)
         action = told if told is not None and worth > URGENT else self._frontier(h)
@@ -114,7 +115,7 @@ class Explorer:
             number = queue.popleft()
             place = h.places[number]
             for way in self.rng.permutation(h.scheme.count).tolist():
-                to, p = believed(h, number, way)
+                to, _ = believed(h, number, way)
                 if to == NOWHERE:
                     continue
                 if p < 0.8:

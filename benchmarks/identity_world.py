@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from cogmap.inference.hypotheses import NOWHERE, Hypothesis, Percept, WayScheme
+from cogmap.inference.hypotheses import NOWHERE, Hypothesis, Sensed, WayScheme
 from cogmap.inference.hypotheses.branches import leads
 from cogmap.inference.hypotheses.evidence import probability, way_odds
 
@@ -25,6 +25,7 @@ class Rooms:
     cells: list[tuple[int, int]]
 
     def copy(self) -> Rooms:
+        """Rooms that can be changed alone."""
         return Rooms(list(self.sights), [list(row) for row in self.ways], list(self.cells))
 
 
@@ -51,7 +52,8 @@ class World:
     time: int = 0
     history: dict[int, int] = field(default_factory=dict[int, int])
 
-    def percept(self, action: int | None) -> Percept:
+    def percept(self, action: int | None) -> Sensed:
+        """What is sensed in the room, after an action."""
         noise, rng, rooms = self.noise, self.rng, self.rooms
         self.history[self.time] = self.room
         self.time += 1
@@ -64,9 +66,10 @@ class World:
             for way, to in enumerate(rooms.ways[self.room]):
                 is_open = to != self.room
                 flags[way] = float(is_open != (rng.random() < noise.door)) if noise.door else float(is_open)
-        return Percept((sight,), tuple(flags), action)
+        return Sensed((sight,), tuple(flags), action)
 
-    def act(self, action: int) -> Percept:
+    def act(self, action: int) -> Sensed:
+        """Carry out an action, as well as the noise lets it."""
         noise, rng, carried = self.noise, self.rng, action
         if noise.slip and rng.random() < noise.slip:
             others = [way for way in range(5) if way != action]
@@ -133,6 +136,7 @@ class Judgement:
     visited: int
 
     def exact(self, rooms: int) -> bool:
+        """Whether the map is right, and has no place too many."""
         return self.right and self.places == rooms
 
 

@@ -7,15 +7,15 @@ from math import exp, log
 
 import numpy as np
 import pytest
-from cogmap.inference.hypotheses import NOWHERE, Percept, Tracker, WayScheme
+from cogmap.inference.hypotheses import NOWHERE, Sensed, Tracker, WayScheme
 from cogmap.inference.hypotheses.branches import branches, leads
 from cogmap.inference.hypotheses.chances import Chances
 from cogmap.inference.hypotheses.evidence import probability, way_odds
 from cogmap.inference.hypotheses.layered import Layered
 from cogmap.inference.hypotheses.periods import reduced, with_period
 from cogmap.inference.hypotheses.pruning import signature
+from cogmap.inference.hypotheses.rates import RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
 from cogmap.inference.hypotheses.weighing import door_evidence
-from cogmap.model.recognition import RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
@@ -39,11 +39,11 @@ class Grid:
             return r % rows, c % columns
         return (r, c) if 0 <= r < rows and 0 <= c < columns else self.at
 
-    def percept(self, action: int | None = None) -> Percept:
+    def percept(self, action: int | None = None) -> Sensed:
         if action is not None:
             self.at = self.beyond(action)
         open_ = tuple(float(self.beyond(way) != self.at) for way in range(4))
-        return Percept((self.sights[self.at[0]][self.at[1]],), open_, action)
+        return Sensed((self.sights[self.at[0]][self.at[1]],), open_, action)
 
 
 def walk(tracker: Tracker, world: Grid, actions: str) -> None:
@@ -61,9 +61,9 @@ def test_positions_are_one_exactly_where_periods_lie_between_them(vectors, data)
             periods = with_period(periods, vector)
     position = data.draw(st.tuples(st.integers(-9, 9), st.integers(-9, 9)))
     times = data.draw(st.tuples(*(st.integers(-3, 3) for _ in vectors)))
-    moved = tuple(x + sum(t * v[axis] for t, v in zip(times, vectors)) for axis, x in enumerate(position))
+    moved = tuple(x + sum(t * v[axis] for t, v in zip(times, vectors, strict=True)) for axis, x in enumerate(position))
     assert reduced(moved, periods) == reduced(position, periods)
-    apart = tuple(a - b for a, b in zip(position, reduced(position, periods)))
+    apart = tuple(a - b for a, b in zip(position, reduced(position, periods), strict=True))
     if len(periods) == 2:
         coefficients = np.linalg.solve(np.array(periods, dtype=float).T, np.array(apart, dtype=float))
         assert np.allclose(coefficients, np.round(coefficients))
@@ -118,7 +118,7 @@ def test_what_may_be_sensed_adds_up_to_one(scheme):
     total = 0.0
     for label, flags in product(range(4), product((0.0, 1.0), repeat=4)):  # 3 is a label never met
         h.chances = Chances(h.counts, [4], size=h.size)
-        found = branches(h, Percept((label,), flags, 0), drop=200.0)
+        found = branches(h, Sensed((label,), flags, 0), drop=200.0)
         total += sum(exp(branch.weight - h.weight) for branch in found)
     place = h.places[h.here]
     left = 0.0  # ways that lead to known places off the chart, or without one, are left to folding
@@ -177,7 +177,7 @@ def test_misread_sights_and_doors_invent_no_places():
         )
         sight = percept.sights[0] if rng.random() > 0.1 else int(rng.integers(9))
         ways = tuple(abs(way - float(rng.random() < 0.1)) for way in percept.ways)  # type: ignore[operator]
-        tracker.step(Percept((sight,), ways, percept.action), [9])
+        tracker.step(Sensed((sight,), ways, percept.action), [9])
     assert tracker.best.size == 9
     assert tracker.best.counts.mean(2) == pytest.approx(0.1, abs=0.04)
 

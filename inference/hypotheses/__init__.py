@@ -2,7 +2,7 @@
 
 from .hypothesis import Hypothesis
 from .records import NOWHERE, Place, Way
-from .scheme import Percept, WayScheme
+from .scheme import Sensed, WayScheme
 from .tracker import Tracker, TrackerOptions
 
-__all__ = ["NOWHERE", "Hypothesis", "Percept", "Place", "Tracker", "TrackerOptions", "Way", "WayScheme"]
+__all__ = ["NOWHERE", "Hypothesis", "Place", "Sensed", "Tracker", "TrackerOptions", "Way", "WayScheme"]

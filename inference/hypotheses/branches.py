@@ -9,7 +9,7 @@ from typing import NamedTuple
 from .evidence import log_likelihood, log_predictive, probability, way_odds
 from .hypothesis import Hypothesis
 from .records import NOWHERE, Place
-from .scheme import Percept
+from .scheme import Sensed
 
 LOOK_ALIKES = 64
 """Places into which a silent move is thought of at most, the last ones first seen."""
@@ -18,11 +18,11 @@ RELINKED = 0.02
 """P(a way that was walked once leads elsewhere after all, since that walk was another); falls with walks squared."""
 
 
-class Branch(NamedTuple):
+class Alternative(NamedTuple):
     """One thing that may have happened.
 
     Attributes:
-        weight: log P(branch, percept | hypothesis), times the weight of the hypothesis.
+        weight: log P(branch, sensed | hypothesis), times the weight of the hypothesis.
         parent: the hypothesis it continues.
         way: the way that was walked; `NOWHERE` if none was.
         to: the place the agent is in now; `NOWHERE` for one never seen.
@@ -49,9 +49,9 @@ class Lead(NamedTuple):
     off: float
 
 
-def branches(h: Hypothesis, percept: Percept, *, drop: float) -> Iterator[Branch]:
+def branches(h: Hypothesis, sensed: Sensed, *, drop: float) -> Iterator[Alternative]:
     """What may have happened, as far as it is within `drop` (nats) of the most probable so far."""
-    walker = _Walker(h, percept)
+    walker = _Walker(h, sensed)
     for branch in walker.moves():
         walker.floor = max(walker.floor, branch.weight - drop)
         yield branch
@@ -60,19 +60,19 @@ def branches(h: Hypothesis, percept: Percept, *, drop: float) -> Iterator[Branch
 class _Walker:
     """The branches of one hypothesis; evidence of a place is worked out once."""
 
-    def __init__(self, h: Hypothesis, percept: Percept) -> None:
-        self.h, self.percept, self.chances = h, percept, h.chances
+    def __init__(self, h: Hypothesis, sensed: Sensed) -> None:
+        self.h, self.sensed, self.chances = h, sensed, h.chances
         self.place = h.places[h.here]
         self.open = [probability(way_odds(h, h.here, self.place, way)) for way in range(h.scheme.count)]
         self.evidence: dict[int, float] = {}
         self.floor = -float("inf")
 
-    def moves(self) -> Iterator[Branch]:
-        h, action, chances = self.h, self.percept.action, self.chances
-        if self.percept.told:
+    def moves(self) -> Iterator[Alternative]:
+        h, action, chances = self.h, self.sensed.action, self.chances
+        if self.sensed.told:
             yield from self._moved(0.0)
             return
-        astray = 0.0 if self.percept.certain else chances.astray
+        astray = 0.0 if self.sensed.certain else chances.astray
         each = astray / h.scheme.count
         stayed = h.weight + log(1.0 - chances.moved)
         if action is not None:
@@ -84,49 +84,49 @@ class _Walker:
                     yield from self._walk(way, stayed + log(each), 1.0)
         yield from self._moved(h.weight + log(chances.moved))
 
-    def _stay(self, before: float, astray: float, each: float) -> Branch:
-        action, fails = self.percept.action, self.chances.fails
+    def _stay(self, before: float, astray: float, each: float) -> Alternative:
+        action, fails = self.sensed.action, self.chances.fails
         stays = [1.0 - p * (1.0 - fails) for p in self.open]
         lost = each * (1.0 + sum(p for way, p in enumerate(stays) if way != action))
         given = (1.0 - astray) * (1.0 if action is None else stays[action])
         failed = 0.0 if action is None else (1.0 - astray) * self.open[action] * fails
         total = given + lost
         weight = before + log(total) + self._at(self.h.here)
-        return Branch(weight, self.h, NOWHERE, self.h.here, False, lost / total, failed / total, 0.0)
+        return Alternative(weight, self.h, NOWHERE, self.h.here, False, lost / total, failed / total, 0.0)
 
-    def _walk(self, way: int, before: float, astray: float) -> Iterator[Branch]:
+    def _walk(self, way: int, before: float, astray: float) -> Iterator[Alternative]:
         h, p = self.h, self.open[way] * (1.0 - self.chances.fails)
         before += log(p)
         lead = leads(h, h.here, self.place, way)
         if lead.to != NOWHERE:
-            yield Branch(before + log(lead.sure) + self._at(lead.to), h, way, lead.to, False, astray, 0.0, 0.0)
+            yield Alternative(before + log(lead.sure) + self._at(lead.to), h, way, lead.to, False, astray, 0.0, 0.0)
         back = None if h.scheme.inverse is None else h.scheme.inverse[way]
         if lead.new > 0.0 and before + log(lead.new) > self.floor:
             key = h.beyond(self.place, way)
-            weight = before + log(lead.new) + log_predictive(h, self.percept, key, back, h.here)
-            yield Branch(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
+            weight = before + log(lead.new) + log_predictive(h, self.sensed, key, back, h.here)
+            yield Alternative(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
         if lead.off > 0.0 and before + log(lead.off) > self.floor:
-            weight = before + log(lead.off) + log_predictive(h, self.percept, None, back, h.here)
-            yield Branch(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
+            weight = before + log(lead.off) + log_predictive(h, self.sensed, None, back, h.here)
+            yield Alternative(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
 
-    def _moved(self, before: float) -> Iterator[Branch]:
+    def _moved(self, before: float) -> Iterator[Alternative]:
         h = self.h
         unseen = max(0.5, 0.5 * (h.counts.yes[0] - h.links))
         each = before - log(h.size + unseen)
         if each + log(max(unseen, 1.0)) <= self.floor:
             return
-        reading = self.percept.sights[0]
+        reading = self.sensed.sights[0]
         alike = h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(h.places)
         for number in alike[-LOOK_ALIKES:]:
             if number != h.here:
-                yield Branch(each + self._at(number), h, NOWHERE, number, False, 0.0, 0.0, 1.0)
-        weight = each + log(unseen) + log_predictive(h, self.percept, None, None, NOWHERE)
-        yield Branch(weight, h, NOWHERE, NOWHERE, False, 0.0, 0.0, 1.0)
+                yield Alternative(each + self._at(number), h, NOWHERE, number, False, 0.0, 0.0, 1.0)
+        weight = each + log(unseen) + log_predictive(h, self.sensed, None, None, NOWHERE)
+        yield Alternative(weight, h, NOWHERE, NOWHERE, False, 0.0, 0.0, 1.0)
 
     def _at(self, number: int) -> float:
         found = self.evidence.get(number)
         if found is None:
-            found = self.evidence[number] = log_likelihood(self.h, number, self.percept)
+            found = self.evidence[number] = log_likelihood(self.h, number, self.sensed)
         return found
 
 

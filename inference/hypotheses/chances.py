@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import log
 
-from ...model.recognition import (
+from .rates import (
     ASTRAY,
     BESIDE,
     CHANGED,

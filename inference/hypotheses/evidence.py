@@ -1,47 +1,47 @@
-"""How likely a percept is at a place, known or never seen, under one hypothesis."""
+"""How likely a sensed is at a place, known or never seen, under one hypothesis."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from math import exp, log
 
-from ...model.recognition import crp_predictive
 from .chances import Chances
 from .hypothesis import Hypothesis, Key
+from .rates import crp_predictive
 from .records import NOWHERE, Place, SightCounts
-from .scheme import Percept, Reading
+from .scheme import Reading, Sensed
 
 LEAST = 1e-300
 
 
-def log_likelihood(h: Hypothesis, number: int, percept: Percept) -> float:
-    """log P(percept | the agent is in that place), by what was read there before."""
+def log_likelihood(h: Hypothesis, number: int, sensed: Sensed) -> float:
+    """log P(sensed | the agent is in that place), by what was read there before."""
     place, chances = h.places[number], h.chances
     p = 1.0
-    for sensor, reading in enumerate(percept.sights):
+    for sensor, reading in enumerate(sensed.sights):
         if reading is not None:
             p *= sight_probability(chances, sensor, place.sights[sensor], reading)
-    for way, reading in enumerate(percept.ways):
+    for way, reading in enumerate(sensed.ways):
         if reading is not None:
             p *= reading_probability(chances, probability(way_odds(h, number, place, way)), reading)
     return log(max(p, LEAST))
 
 
-def log_predictive(h: Hypothesis, percept: Percept, key: Key | None, back: int | None, source: int) -> float:
-    """log P(percept | a place never seen), by what places are like here.
+def log_predictive(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> float:
+    """log P(sensed | a place never seen), by what places are like here.
 
     Args:
         h: the hypothesis.
-        percept: what is sensed.
+        sensed: what is sensed.
         key: frame and position of the new place; None where it has none, or neighbours unknown.
         back: the way back to where the agent came from, where that is known.
         source: where it came from.
     """
     chances, p = h.chances, 1.0
-    for sensor, reading in enumerate(percept.sights):
+    for sensor, reading in enumerate(sensed.sights):
         if reading is not None:
             p *= new_sight_probability(h, sensor, reading)
-    for way, reading in enumerate(percept.ways):
+    for way, reading in enumerate(sensed.ways):
         if reading is not None:
             p *= reading_probability(chances, _expected_open(h, key, way, back, source), reading)
     return log(max(p, LEAST))

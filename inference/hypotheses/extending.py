@@ -4,27 +4,27 @@ from __future__ import annotations
 
 from math import log
 
-from ...model.recognition import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
-from .branches import Branch
+from .branches import Alternative
 from .chances import Chances
 from .evidence import label_probability, probability, sight_probability, way_odds
 from .hypothesis import Hypothesis
+from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
-from .scheme import Percept, Reading
+from .scheme import Reading, Sensed
 
 
-def begin(h: Hypothesis, percept: Percept, time: int) -> None:
+def begin(h: Hypothesis, sensed: Sensed, time: int) -> None:
     """Put the agent into the first place."""
     _place_new(h, time, frame=time, position=h.scheme.origin)
-    _look(h, time, percept, time)
+    _look(h, time, sensed, time)
 
 
-def extend(h: Hypothesis, branch: Branch, percept: Percept, time: int) -> None:
+def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> None:
     """Carry out `branch` on `h`, which becomes what the branch says."""
     here, to = h.here, branch.to
     _count_how(h, branch)
     if branch.way == NOWHERE and not branch.moved:
-        _bump(h, branch, percept)
+        _bump(h, branch, sensed)
     if to == NOWHERE:
         to = time
         key = h.beyond(h.places[here], branch.way) if branch.charted else None
@@ -32,7 +32,7 @@ def extend(h: Hypothesis, branch: Branch, percept: Percept, time: int) -> None:
         _place_new(h, to, frame=frame, position=position)
     if branch.way != NOWHERE:
         _walk(h, here, branch.way, to, branch)
-    _look(h, to, percept, time)
+    _look(h, to, sensed, time)
     h.weight = branch.weight
 
 
@@ -42,7 +42,7 @@ def _place_new(h: Hypothesis, number: int, *, frame: int, position: tuple[int, .
     h.put(number, Place(sights, (Way(),) * scheme.count, frame, position, (), frozenset(), Share()))
 
 
-def _count_how(h: Hypothesis, branch: Branch) -> None:
+def _count_how(h: Hypothesis, branch: Alternative) -> None:
     yes, no = h.counts.yes, h.counts.no
     yes[MOVED] += branch.moved
     no[MOVED] += 1.0 - branch.moved
@@ -54,9 +54,9 @@ def _count_how(h: Hypothesis, branch: Branch) -> None:
     no[FAILS] += branch.way != NOWHERE
 
 
-def _bump(h: Hypothesis, branch: Branch, percept: Percept) -> None:
+def _bump(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
     """It stayed where it is: log P(stays | open) / P(stays | blocked), in readings."""
-    way, chances, place = percept.action, h.chances, h.places[h.here]
+    way, chances, place = sensed.action, h.chances, h.places[h.here]
     if way is None:
         return
     given, lost = 1.0 - chances.astray, chances.astray * 0.5
@@ -72,7 +72,7 @@ def with_way(place: Place, index: int, way: Way) -> Place:
     return Place(place.sights, ways, place.frame, place.position, place.recent, place.into, place.share)
 
 
-def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Branch) -> None:
+def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
     place = h.places[here]
     way = place.ways[index]
     if way.to not in (NOWHERE, to):
@@ -118,7 +118,7 @@ def _unlink(h: Hypothesis, here: int, index: int, way: Way) -> None:
     h.put(way.to, Place(old.sights, ways, old.frame, old.position, old.recent, into, old.share))
 
 
-def _count_link(h: Hypothesis, place: Place, index: int, to: int, branch: Branch) -> None:
+def _count_link(h: Hypothesis, place: Place, index: int, to: int, branch: Alternative) -> None:
     h.links += 1
     new = branch.to == NOWHERE
     if h.scheme.displacements is None:
@@ -136,15 +136,14 @@ def _count_returns(h: Hypothesis, place: Place, index: int, to: int) -> None:
         h.undo[by, index] = (yes + 1.0, no) if source == to else (yes, no + 1.0)
 
 
-def _look(h: Hypothesis, number: int, percept: Percept, time: int) -> None:
+def _look(h: Hypothesis, number: int, sensed: Sensed, time: int) -> None:
     place, chances = h.places[number], h.chances
     sights = tuple(
         seen(chances, sensor, counts, reading)
-        for sensor, (counts, reading) in enumerate(zip(place.sights, percept.sights, strict=True))
+        for sensor, (counts, reading) in enumerate(zip(place.sights, sensed.sights, strict=True))
     )
     ways = tuple(
-        way if reading is None else _read(h, way, reading)
-        for way, reading in zip(place.ways, percept.ways, strict=True)
+        way if reading is None else _read(h, way, reading) for way, reading in zip(place.ways, sensed.ways, strict=True)
     )
     recent = (*place.recent[-RECENT + 1 :], time)
     looked = Place(sights, ways, place.frame, place.position, recent, place.into, place.share)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ...model.recognition import ASTRAY, ELSEWHERE, MOVED, NEW, UNDONE
 from .extending import shared
 from .hypothesis import Hypothesis
+from .rates import ASTRAY, ELSEWHERE, MOVED, NEW, UNDONE
 from .records import NOWHERE, Place, Way
 from .uniting import ContradictionError, Union
 from .weighing import Links, scored

@@ -10,7 +10,7 @@ from .branches import leads
 from .evidence import log_likelihood, probability, way_odds
 from .hypothesis import Hypothesis
 from .records import NOWHERE, RECENT, Place, Way
-from .scheme import Percept
+from .scheme import Sensed
 from .weighing import seating
 
 MARGIN = 3
@@ -24,12 +24,12 @@ class History:
     """The last percepts, by time."""
 
     def __init__(self, length: int = 512) -> None:
-        self._percepts: deque[Percept] = deque(maxlen=length)
+        self._percepts: deque[Sensed] = deque(maxlen=length)
         self.end = 0
 
-    def add(self, percept: Percept) -> None:
+    def add(self, sensed: Sensed) -> None:
         """Append one step."""
-        self._percepts.append(percept)
+        self._percepts.append(sensed)
         self.end += 1
 
     @property
@@ -37,7 +37,7 @@ class History:
         """The time of the first step that is kept."""
         return self.end - len(self._percepts)
 
-    def __getitem__(self, time: int) -> Percept:
+    def __getitem__(self, time: int) -> Sensed:
         return self._percepts[time - self.start]
 
 
@@ -83,18 +83,18 @@ def replayed(
     total = sum(belief.values())
     evidence = 0.0
     for time in range(first + 1, last + 1):
-        percept = history[time]
-        ahead = _predicted(h, {k: p / total for k, p in belief.items()}, percept, skip)
-        belief = {k: p * exp(log_likelihood(h, k, percept)) for k, p in ahead.items()}
+        sensed = history[time]
+        ahead = _predicted(h, {k: p / total for k, p in belief.items()}, sensed, skip)
+        belief = {k: p * exp(log_likelihood(h, k, sensed)) for k, p in ahead.items()}
         total = sum(belief.values())
         evidence += log(total)
         belief = {k: p for k, p in belief.items() if p > 1e-6 * total}
     return evidence
 
 
-def _predicted(h: Hypothesis, belief: dict[int, float], percept: Percept, skip: Collection[int]) -> dict[int, float]:
-    """Where the agent is before the percept, with silent moves to every place evenly."""
-    chances, action = h.chances, percept.action
+def _predicted(h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Collection[int]) -> dict[int, float]:
+    """Where the agent is before the sensed, with silent moves to every place evenly."""
+    chances, action = h.chances, sensed.action
     ahead: dict[int, float] = {k: chances.moved / h.size for k in h.places if k not in skip}
     each = chances.astray / h.scheme.count
     for number, p in belief.items():

@@ -34,7 +34,7 @@ class WayScheme:
 
 
 @dataclass(frozen=True, slots=True)
-class Percept:
+class Sensed:
     """What one step brings.
 
     Attributes:

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from heapq import nlargest
 from math import exp, log
 
-from .branches import Branch, branches
+from .branches import Alternative, branches
 from .chances import Chances
 from .extending import begin, extend
 from .folding import pairs, union
 from .hypothesis import Hypothesis
 from .pruning import merged, normalised
 from .replaying import History, doubted, without
-from .scheme import Percept, WayScheme
+from .scheme import Sensed, WayScheme
 
 Try = tuple[int, int, bool, int, int]
 
@@ -57,21 +57,21 @@ class Tracker:
         """The most probable hypothesis."""
         return self.hypotheses[0]
 
-    def step(self, percept: Percept, labels: Sequence[int]) -> None:
+    def step(self, sensed: Sensed, labels: Sequence[int]) -> None:
         """Take in one step.
 
         Args:
-            percept: what it brings.
+            sensed: what it brings.
             labels: number of labels that each sensor has shown so far, this step included.
         """
-        self.history.add(percept)
+        self.history.add(sensed)
         if not self.hypotheses:
             first = Hypothesis(self.scheme)
             first.chances = Chances(first.counts, [n + 1 for n in labels])
-            begin(first, percept, self.time)
+            begin(first, sensed, self.time)
             self.hypotheses = [first]
         else:
-            self._advance(percept, [n + 1 for n in labels])
+            self._advance(sensed, [n + 1 for n in labels])
         self.time += 1
 
     def certainty(self) -> float:
@@ -86,23 +86,23 @@ class Tracker:
             total += exp(h.weight) * same
         return min(total, 1.0)
 
-    def _advance(self, percept: Percept, labels: Sequence[int]) -> None:
+    def _advance(self, sensed: Sensed, labels: Sequence[int]) -> None:
         drop = -log(self.options.least)
-        happened: list[Branch] = []
+        happened: list[Alternative] = []
         for h in self.hypotheses:
             h.chances = Chances(h.counts, labels, size=h.size)
-            happened.extend(branches(h, percept, drop=drop))
+            happened.extend(branches(h, sensed, drop=drop))
         top = max(branch.weight for branch in happened)
         happened = [branch for branch in happened if branch.weight > top - drop]
         happened = nlargest(3 * self.options.most, happened, key=lambda branch: branch.weight)
-        children = self._extended(happened, percept)
+        children = self._extended(happened, sensed)
         proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
         found = merged(children, proposed)
         self.hypotheses = normalised(found, drop=drop, most=self.options.most)
         if len(self.hypotheses) == 1:
             self.hypotheses[0].settle()
 
-    def _extended(self, found: Sequence[Branch], percept: Percept) -> list[Hypothesis]:
+    def _extended(self, found: Sequence[Alternative], sensed: Sensed) -> list[Hypothesis]:
         left: dict[int, int] = {}
         for branch in found:
             left[id(branch.parent)] = left.get(id(branch.parent), 0) + 1
@@ -112,7 +112,7 @@ class Tracker:
             h = branch.parent.fork() if left[id(branch.parent)] else branch.parent  # the last child is the parent
             h.chances = branch.parent.chances
             children.append(h)
-            extend(h, branch, percept, self.time)
+            extend(h, branch, sensed, self.time)
         return children
 
     def _folded(self, children: Sequence[Hypothesis], drop: float) -> list[Hypothesis]:

@@ -6,9 +6,9 @@ from collections.abc import Collection, Sequence
 from math import exp, lgamma, log
 from typing import NamedTuple
 
-from ...model.recognition import ELSEWHERE, NEW, RATE_PRIORS, UNDONE, crp_evidence
 from .chances import Chances
 from .hypothesis import Hypothesis
+from .rates import ELSEWHERE, NEW, RATE_PRIORS, UNDONE, crp_evidence
 from .records import NOWHERE
 from .uniting import Union
 
