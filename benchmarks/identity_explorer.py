@@ -115,7 +115,7 @@ class Explorer:
             number = queue.popleft()
             place = h.places[number]
             for way in self.rng.permutation(h.scheme.count).tolist():
-                to, _ = believed(h, number, way)
+                to, p = believed(h, number, way)
                 if to == NOWHERE:
                     continue
                 if p < 0.8:
