@@ -391,7 +391,7 @@ class Agent:
                 self.map,
                 window[-1] if window else None,
                 (message.places, message.positions, message.mass),
-                belief.log_likelihoods,
+                belief.likelihoods,
                 step=self._state.steps,
                 percept=percept,
                 examined=belief.examined,

@@ -22,7 +22,7 @@ RECORDS: dict[str, type[Any]] = {
 """What is taken apart field by field, by name."""
 
 
-_OF_THE_STEP = ("log_likelihoods", "pruned", "ahead")
+_OF_THE_STEP = ("likelihoods", "pruned", "ahead")
 """Of a belief, what only the step that it is of needs."""
 
 

@@ -64,7 +64,7 @@ def lost_window(map_: CognitiveMap, steps: int, rng: np.random.Generator) -> lis
                 map_,
                 window[-1] if window else None,
                 anywhere,
-                map_.log_likelihoods(places, percept),
+                map_.likelihoods(places, percept),
                 step=step,
                 percept=percept,
                 examined=True,

@@ -8,7 +8,7 @@ are, and which there are, is the model's business.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,9 @@ PRUNED = 1e-8
 FEW = 50
 """Visited places that are looked at one and all."""
 
+SMALL = 1e-250
+"""Likelihoods that are all below are brought up, so that none is rounded to zero."""
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
@@ -31,16 +34,18 @@ Ints = NDArray[np.int64]
 class _Candidates:
     """Weighted pairs `[m]` of a place and a pose.
 
-    `weight` is their mass before the evidence, `source` the pair of the message that they come from, `log_likelihoods`
-    `[m, F]` what the sensors say, and `log_joint` all together, the coupling of the transition included.
+    `weight` is their mass before the evidence, `source` the pair of the message that they come from, `coupling` that of
+    the transition, and `likelihoods` `[m, F]` what the sensors say, all of them together up to a factor exp(`scale`):
+    one is taken out where the numbers would be too small.
     """
 
     places: Ints
     positions: Ints
     weight: Floats
     source: Ints
-    log_likelihoods: Floats
-    log_joint: Floats
+    coupling: Floats
+    likelihoods: Floats
+    scale: float
 
     @classmethod
     def seen(
@@ -51,16 +56,43 @@ class _Candidates:
         positions: Ints,
         weight: Floats,
         source: Ints,
-        coupling: Floats | float = 1.0,
+        coupling: Floats | None = None,
     ) -> _Candidates:
         """These pairs in the light of what is sensed."""
-        told = model.log_likelihoods(places, percept)
-        return cls(places, positions, weight, source, told, np.log(weight * coupling) + told.sum(axis=1))
+        told, scale = model.likelihoods(places, percept), 0.0
+        if told.size and np.multiply.reduce(told, axis=1).max() < SMALL:
+            log = model.log_likelihood(places, percept)
+            scale = float(log.max())
+            told[:, :-1], told[:, -1] = 1.0, np.exp(log - scale)
+        coupling = np.ones(len(places)) if coupling is None else coupling
+        return cls(places, positions, weight, source, coupling, told, scale)
 
     def joined(self, others: _Candidates) -> _Candidates:
         """These, then the others."""
-        pairs = ((getattr(self, name), getattr(others, name)) for name in self.__slots__)
-        return _Candidates(*(np.concatenate(pair) for pair in pairs))
+        scale = max(self.scale, others.scale)
+        these, those = self.scaled(scale), others.scaled(scale)
+        return _Candidates(
+            np.concatenate([these.places, those.places]),
+            np.concatenate([these.positions, those.positions]),
+            np.concatenate([these.weight, those.weight]),
+            np.concatenate([these.source, those.source]),
+            np.concatenate([these.coupling, those.coupling]),
+            np.concatenate([these.likelihoods, those.likelihoods]),
+            scale,
+        )
+
+    def scaled(self, scale: float) -> _Candidates:
+        """With this factor taken out instead."""
+        if scale == self.scale:
+            return self
+        told = self.likelihoods.copy()
+        told[:, -1] *= np.exp(self.scale - scale)
+        return replace(self, likelihoods=told, scale=scale)
+
+    @property
+    def joint(self) -> Floats:
+        """`[m]` their joint masses with the evidence, up to the factor."""
+        return self.weight * self.coupling * np.multiply.reduce(self.likelihoods, axis=1)
 
 
 def begin(model: GenerativeModel, place: int, percept: Percept) -> Belief:
@@ -78,8 +110,8 @@ def advance(model: GenerativeModel, message: Message, percept: Percept, *, suppo
     stays = model.pose.stays(percept.action, opened=percept.opened)
     ahead = model.transitions.predict(places, percept.action, percept, stays=stays)
     walked = _walk(model, message, percept, ahead.of(pair))
-    displacement = 0.0 if model.displacement is None else model.displacement.probability
-    share = float(np.exp(walked.log_joint).sum())
+    displacement = _probability(model)
+    share = float(walked.joint.sum()) * np.exp(walked.scale)
     if displacement <= support * share:  # even a perfect match elsewhere would be dropped
         return _update(model, message, walked, None, support=support, ahead=ahead)
     displaced, left_out = _displaced(model, walked, percept, support)
@@ -88,9 +120,7 @@ def advance(model: GenerativeModel, message: Message, percept: Percept, *, suppo
 
 def _walk(model: GenerativeModel, message: Message, percept: Percept, ahead: Successors) -> _Candidates:
     """Where the action leads: each successor with each pose that it may have then."""
-    p = ahead.probability * message.mass[:, None]
-    if model.displacement is not None:
-        p *= 1.0 - model.displacement.probability
+    p = ahead.probability * (message.mass[:, None] * (1.0 - _probability(model)))
     source, slot = np.nonzero((ahead.places >= 0) & (p > 0.0))
     places, p, coupling = ahead.places[source, slot], p[source, slot], ahead.coupling[source, slot]
     poses = model.pose.predict(message.positions, percept.action or 0, opened=percept.opened)
@@ -116,7 +146,7 @@ def _displaced(
         entered = walked.places[model.visits.visited.values[walked.places]]
         places = np.union1d(found[0], entered)
         some = _put_into(model, places, percept)
-        best = max(float(np.exp(part.log_joint).max(initial=0.0)) for part in (walked, some))
+        best = max(float(part.joint.max(initial=0.0)) * np.exp(part.scale) for part in (walked, some))
         each = found[1] * _probability(model) / len(visited)
         if each < min(support, PRUNED) * best:
             return some, each * (len(visited) - len(places))
@@ -153,26 +183,26 @@ def _update(
     pairs, pair = distinct(all_.places * size + all_.positions)
     pair_places, pair_positions = np.divmod(pairs, size)
     predicted = np.bincount(pair, weights=all_.weight, minlength=len(pairs))
-    told = np.empty((len(pairs), all_.log_likelihoods.shape[1]))
-    told[pair] = all_.log_likelihoods
-    scale = float(all_.log_joint.max())  # of the masses below, so that nothing is too small to be told from zero
-    each = np.exp(all_.log_joint - scale)
-    joint = np.bincount(pair, weights=each, minlength=len(pairs))
+    told = np.empty((len(pairs), all_.likelihoods.shape[1]))
+    told[pair] = all_.likelihoods
+    coupled = np.bincount(pair, weights=all_.weight * all_.coupling, minlength=len(pairs))
+    joint = coupled * np.multiply.reduce(told, axis=1)
     total = float(joint.sum())
     kept = _support(pair_places, joint / total, support)
     z = float(joint[kept].sum())
-    evidence = float(np.log(z)) + scale
-    walked_mass = np.where(kept[pair[: len(walked.weight)]], each[: len(walked.weight)], 0.0) / z
+    evidence = float(np.log(z)) + all_.scale
+    count = len(walked.weight)
+    walked_mass = np.where(kept[pair[:count]], walked.scaled(all_.scale).joint, 0.0) / z
     unexamined = 0.0
     if displaced is None and message is not None:
         unexamined = _probability(model) / (_probability(model) + np.exp(evidence))
     return Belief(
         message=Message(pair_places[kept], pair_positions[kept], joint[kept] / z),
         evidence=evidence,
-        log_likelihood=np.log(joint[kept] / predicted[kept]) + scale,
-        log_likelihoods=told[kept],
+        log_likelihood=np.log(joint[kept] / predicted[kept]) + all_.scale,
+        likelihoods=told[kept],
         moved=max(0.0, 1.0 - float(walked_mass.sum())) if displaced is not None else 0.0,
-        dropped=1.0 - z / (total + left_out * np.exp(min(-scale, 700.0))) + unexamined,
+        dropped=1.0 - z / (total + left_out * np.exp(min(-all_.scale, 700.0))) + unexamined,
         examined=displaced is not None,
         pairwise=_pairwise(message, walked, walked_mass),
         pruned=(pair_places[~kept], joint[~kept] / z),

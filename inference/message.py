@@ -108,8 +108,8 @@ class Belief:
         examined: whether being displaced was examined; if not, all of it would have been dropped.
         pairwise: pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`.
         doubt: probability that the belief went astray at an earlier step; see `rivals`.
-        log_likelihoods: `[n, F]` log P(reading | s_t) of each sensor that sensed something, in nats; empty in a belief
-            that was loaded.
+        likelihoods: `[n, F]` P(reading | s_t) of each sensor that sensed something, all together up to one factor;
+            empty in a belief that was loaded.
         pruned: places that were dropped from the support, and their mass beside the kept ones'.
         ahead: where the action may have led from each place of the step before; None at first, and if loaded.
     """
@@ -122,7 +122,7 @@ class Belief:
     examined: bool
     pairwise: tuple[Ints, Ints, Floats]
     doubt: float = 0.0
-    log_likelihoods: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    likelihoods: Floats = field(default_factory=lambda: np.zeros((0, 0)))
     pruned: tuple[Ints, Floats] = field(default_factory=_nothing)
     ahead: Successors | None = None
 
@@ -176,7 +176,7 @@ class Belief:
             self,
             message=message,
             log_likelihood=self.log_likelihood[at],
-            log_likelihoods=self.log_likelihoods[at],
+            likelihoods=self.likelihoods[at],
             evidence=self.evidence + float(np.log(kept)),
             moved=max(0.0, 1.0 - float(pairwise[2].sum())) if self.examined else 0.0,
             dropped=1.0 - kept * (1.0 - self.dropped),

@@ -126,7 +126,7 @@ def advance_rivals(
     chance = displacement * anything  # of what nothing explains
     explained = max(float(np.exp(belief.evidence)), chance)
     gain = np.where(parted, 1.0, min(anything / explained, 1.0))
-    likely = np.exp(map_.log_likelihoods(places[known], percept).sum(axis=1))
+    likely = np.multiply.reduce(map_.likelihoods(places[known], percept), axis=1)
     gain[known] = np.maximum(likely, chance) / explained
     odds, coincidence = np.minimum(rivals.odds * gain, SURE), np.minimum(rivals.coincidence * gain, SURE)
     contradicted = belief.moved >= 0.5 or explained == chance
@@ -143,8 +143,7 @@ def _since(map_: CognitiveMap, places: Ints, visits: Ints) -> NDArray[np.bool_]:
 def certain_of(map_: CognitiveMap, place: int, percept: Percept, *, odds: float, instead_of: Belief) -> Belief:
     """The belief of an agent that has found out that it is in `place`, at these odds against what it believed."""
     here, none = np.array([place]), np.zeros(0, dtype=np.int64)
-    told = map_.log_likelihoods(here, percept)
-    log_likelihood = told.sum(axis=1)
+    log_likelihood = map_.log_likelihood(here, percept)
     before = np.log(odds) + instead_of.evidence - log_likelihood[0]  # log odds before this evidence
     return Belief(
         message=Message.sure(place, int(map_.pose.of(here)[0])),
@@ -154,5 +153,5 @@ def certain_of(map_: CognitiveMap, place: int, percept: Percept, *, odds: float,
         dropped=0.0,
         examined=True,
         pairwise=(none, none, np.zeros(0)),
-        log_likelihoods=told,
+        likelihoods=map_.likelihoods(here, percept),
     )

@@ -111,12 +111,17 @@ class GenerativeModel:
         """The places, by number."""
         return range(self._size)
 
-    def log_likelihoods(self, places: Ints, percept: Percept) -> Floats:
-        """`[n, F]` log P(reading | s) of each sensor that sensed something, in order, in nats."""
+    def likelihoods(self, places: Ints, percept: Percept) -> Floats:
+        """`[n, F]` P(reading | s) of each sensor that sensed something, in order."""
         told = np.empty((len(places), len(percept.readings)))
         for at, (name, reading) in enumerate(percept.readings.items()):
-            told[:, at] = self.sensors[name].log_likelihood(places, reading)
+            told[:, at] = self.sensors[name].likelihood(places, reading)
         return told
+
+    def log_likelihood(self, places: Ints, percept: Percept) -> Floats:
+        """`[n]` log P(readings | s), in nats."""
+        told = (self.sensors[name].log_likelihood(places, reading) for name, reading in percept.readings.items())
+        return sum(told, np.zeros(len(places)))
 
     def log_predictive(self, percept: Percept) -> float:
         """Log P(readings) in a place of which nothing is known, in nats."""

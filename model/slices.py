@@ -43,7 +43,7 @@ def take_slice(
     model: GenerativeModel,
     before: Slice | None,
     pairs: tuple[Ints, Ints, Floats],
-    log_likelihoods: Floats,
+    likelihoods: Floats,
     *,
     step: int,
     percept: Percept,
@@ -56,22 +56,22 @@ def take_slice(
         model: the model as it is now.
         before: the slice of the step before.
         pairs: places, positions and masses of its `k` pairs.
-        log_likelihoods: `[k, F]` log P(reading | s) of each sensor that sensed something, as it was filtered with.
+        likelihoods: `[k, F]` P(reading | s) of each sensor that sensed something, as it was filtered with.
         step: the time step.
         percept: what it brought.
         examined: whether the filter looked at displacement.
         ahead: where the action may have led from each place of the step before, as the filter had it.
     """
     (places, place_at), (positions, position_at) = distinct(pairs[0]), distinct(pairs[1])
-    joint, told = np.zeros((len(places), len(positions))), np.empty((len(places), log_likelihoods.shape[1]))
-    joint[place_at, position_at], told[place_at] = pairs[2], log_likelihoods
+    joint, told = np.zeros((len(places), len(positions))), np.empty((len(places), likelihoods.shape[1]))
+    joint[place_at, position_at], told[place_at] = pairs[2], likelihoods
     support = Support(
         step=step,
         percept=percept,
         places=places,
         positions=positions,
         before=None if before is None else (before.places, before.positions),
-        log_likelihoods=dict(zip(percept.readings, told.T, strict=True)),
+        likelihoods=dict(zip(percept.readings, told.T, strict=True)),
         arrival=None if model.displacement is None else model.displacement.arrival(places),
         examined=examined,
         ahead=None if before is None else ahead,

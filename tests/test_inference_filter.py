@@ -212,8 +212,8 @@ def two_slices(map_: CognitiveMap, message: Message, belief: Belief, percept: Pe
     before = Percept(None, False, percept.readings)
     for step, (held, seen, told, ahead) in enumerate(
         (
-            (message, before, map_.log_likelihoods(message.places, before), None),
-            (belief.message, percept, belief.log_likelihoods, belief.ahead),
+            (message, before, map_.likelihoods(message.places, before), None),
+            (belief.message, percept, belief.likelihoods, belief.ahead),
         )
     ):
         pairs = held.places, held.positions, held.mass

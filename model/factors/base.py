@@ -78,7 +78,7 @@ class Support:
         places: `[n]` domain of s_t.
         positions: `[m]` domain of p_t.
         before: the domains of s_t-1 `[n']` and p_t-1 `[m']`; None where the window begins.
-        log_likelihoods: by name of the sensor, `[n]` log P(reading | s_t).
+        likelihoods: by name of the sensor, `[n]` P(reading | s_t), of all together up to one factor.
         arrival: `[n]` P(s_t | moved_t); None in a model without displacement.
         examined: whether the filter looked at displacement at all.
         ahead: where the action may have led from each of the places before, as the filter had it.
@@ -89,7 +89,7 @@ class Support:
     places: Ints
     positions: Ints
     before: tuple[Ints, Ints] | None
-    log_likelihoods: Mapping[str, Floats]
+    likelihoods: Mapping[str, Floats]
     arrival: Floats | None
     examined: bool
     ahead: Successors | None

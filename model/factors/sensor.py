@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -76,6 +75,10 @@ class Sensor(ModelFactor):
         """`[n]` log P(reading | s), in nats."""
         raise NotImplementedError
 
+    def likelihood(self, places: Ints, reading: Any) -> Floats:
+        """`[n]` P(reading | s), where that is not too small for a number."""
+        return np.exp(self.log_likelihood(places, reading))
+
     def log_predictive(self, reading: Any) -> float:
         """Log P(reading) in a place of which nothing is known, in nats."""
         return 0.0
@@ -89,11 +92,10 @@ class Sensor(ModelFactor):
 
     def tables(self, support: Support) -> Iterable[Table]:
         """Its likelihood of what was sensed."""
-        if self.name in support.log_likelihoods:
+        if self.name in support.likelihoods:
             reading = support.percept.readings[self.name]
             o, s = f"{self.variable}{support.step}", f"s{support.step}"
-            values = partial(_likelihood, support.log_likelihoods[self.name])
-            equation = f"P({self.variable}_t | s_t)"
+            values, equation = support.likelihoods[self.name][None], f"P({self.variable}_t | s_t)"
             yield Table(self.symbol, (o, s), values, self.kind, equation, observed=(self.label(reading),))
 
     # -- learning ------------------------------------------------------------------------------------------
@@ -111,7 +113,3 @@ class Sensor(ModelFactor):
     def information_unseen(self, steps: int) -> Floats:
         """`[N + 1]` the same in a place that was never imagined."""
         return np.zeros(steps + 1)
-
-
-def _likelihood(log_likelihood: Floats) -> Floats:
-    return np.exp(log_likelihood)[None]

@@ -113,6 +113,10 @@ class Sight(Sensor):
         """`[n]` log P(o | s)."""
         return np.log(self.table.probability(reading, places))
 
+    def likelihood(self, places: Ints, reading: int) -> Floats:
+        """`[n]` P(o | s)."""
+        return self.table.probability(reading, places)
+
     def log_predictive(self, reading: int) -> float:
         """Any label is as likely as any other, one never met among them."""
         return -float(np.log(self.table.outcomes))

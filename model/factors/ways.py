@@ -53,10 +53,18 @@ class Ways(Sensor):
 
     def log_likelihood(self, places: Ints, reading: Sequence[bool]) -> Floats:
         """`[n]` log P(doors as sensed | s)."""
+        return np.log(self._each(places, reading)).sum(axis=1)
+
+    def likelihood(self, places: Ints, reading: Sequence[bool]) -> Floats:
+        """`[n]` P(doors as sensed | s)."""
+        return np.multiply.reduce(self._each(places, reading), axis=1)
+
+    def _each(self, places: Ints, reading: Sequence[bool]) -> Floats:
+        """`[n, K]` of each door by itself."""
         p = self._transitions.blocked(places)
         np.subtract(1.0, p, out=p, where=np.array(reading, dtype=np.bool_))
         p[:, self._motions.stay] = 1.0
-        return np.log(p).sum(axis=1)
+        return p
 
     def log_predictive(self, reading: Sequence[bool]) -> float:
         """A way is as likely open as not."""

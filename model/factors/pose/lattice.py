@@ -116,12 +116,15 @@ class Lattice(Pose):
 
     def stays(self, action: int, *, opened: bool) -> float:
         """Probability that the position stays, but for `stay` itself."""
-        return 0.0 if action == self.motions.stay else self.slip if opened else 1.0 - self.slip
+        return 1.0 - self._moves(action, opened=opened)
+
+    def _moves(self, action: int, *, opened: bool) -> float:
+        return 1.0 if action == self.motions.stay else 1.0 - self.slip if opened else self.slip
 
     def predict(self, poses: Ints, action: int, *, opened: bool) -> Ahead:
         """B_p: moved on, or not."""
-        stays = self.stays(action, opened=opened)
-        return (self.beyond.values[poses, action], 1.0 - stays), (poses, stays)
+        moves = self._moves(action, opened=opened)
+        return (self.beyond.values[poses, action], moves), (poses, 1.0 - moves)
 
     def information(self, places: Ints, steps: int) -> Floats:
         """`[n, N + 1]` nats that 0..N more visits teach of A_p."""
