@@ -277,8 +277,9 @@ def _columns(graph: FactorGraph, data: Data) -> tuple[Mapping[str, Sequence[Hash
     rows = list(data)
     if not all(isinstance(row, Mapping) for row in cast(list[object], rows)):
         raise CogmapError("fit: give a mapping of variables to labels, or a list of rows that are mappings")
-    names = dict.fromkeys(name for row in rows for name in row)
-    return {graph.variable_named(name).name: [row.get(name) for row in rows] for name in names}, len(rows)
+    named = [{graph.variable_named(name).name: label for name, label in row.items()} for row in rows]
+    names = dict.fromkeys(name for row in named for name in row)
+    return {name: [row.get(name) for row in named] for name in names}, len(rows)
 
 
 def _indices(graph: FactorGraph, name: str, column: Sequence[Hashable]) -> IntArray:
