@@ -7,17 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .cells import Cell, Row, run_cell, run_cells
-    from .exploring import (
-        ExploreRun,
-        Walk,
-        exploration,
-        explore,
-        explore_many,
-        frontier_steps,
-        oracle_steps,
-        summarise,
-        walk,
-    )
+    from .exploring import ExploreRun, exploration, explore, explore_many, frontier_steps, oracle_steps, summarise, walk
     from .goals import WEIGHT, check_goal, parse_goal
     from .kidnapping import KidnapRun, check_kidnap, kidnap, kidnap_many, kidnap_result
     from .knowledge import BELIEVED, Truth
@@ -49,7 +39,6 @@ __all__ = [
     "Run",
     "Session",
     "Truth",
-    "Walk",
     "Walker",
     "WorkerLostError",
     "check_goal",
