@@ -160,16 +160,8 @@ class _Tables:
         self.values = [np.exp(digamma(each) - digamma(each.sum(axis=0))) for each in posteriors]
 
     def _with(self, new: Mapping[int, tuple[ConditionalTable, FloatArray]]) -> FactorGraph:
-        graph = FactorGraph()
-        for variable in self.source.variables:
-            graph.add_variable(variable)
-        for factor in self.source.factors:
-            table, values = new.get(id(factor.table), (factor.table, factor.values))
-            graph.add_factor(replace(factor, table=table, values=values))
-        graph = graph.observe_all(self.source.evidence)
-        for name, values in self.source.likelihoods.items():
-            graph = graph.observe(name, dict(zip(graph.variable_named(name).domain, values, strict=True)))
-        return graph
+        tied = [(factor, new[id(factor.table)]) for factor in self.source.factors if id(factor.table) in new]
+        return self.source.replaced(replace(factor, table=table, values=values) for factor, (table, values) in tied)
 
 
 @dataclass(frozen=True, slots=True)
