@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from .parts import AGENTS, CSCG, Maker, Parts
     from .pool import WorkerLostError, completed, map_seeds, map_tasks, workers
     from .records import Record, mean, std
-    from .running import Moment, Run, Walker, run
-    from .session import Session, default_steps, draw_start, explored, set_out
+    from .running import Moment, Run, run
+    from .session import Session, default_steps, draw_start, explored
     from .text import count, number, spread
 
 __all__ = [
@@ -39,7 +39,6 @@ __all__ = [
     "Run",
     "Session",
     "Truth",
-    "Walker",
     "WorkerLostError",
     "check_goal",
     "check_kidnap",
@@ -69,7 +68,6 @@ __all__ = [
     "run",
     "run_cell",
     "run_cells",
-    "set_out",
     "spread",
     "std",
     "summarise",
