@@ -143,7 +143,6 @@ def _parts(options: Options, agent: str = "cogmap") -> Parts:
 
 
 def _made_with(options: Options) -> dict[str, Any]:
-    parts = _parts(options)
+    parts, most = _parts(options), options.get("max_steps")
     own = {name: value for name, value in parts.settings.to_dict().items() if name != "growth"}  # each row has its own
-    made = {"settings": own, "cscg": parts.cscg.to_dict(), "max_steps": options.get("max_steps")}
-    return {"cogmap": version("cogmap"), **made}
+    return {"cogmap": version("cogmap"), "settings": own, "cscg": parts.cscg.to_dict(), "max_steps": most}

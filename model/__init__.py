@@ -32,7 +32,6 @@ from .factors import (
 from .files import make_folder, write_through, write_whole
 from .generative import GenerativeModel
 from .graph import (
-    MOST_DRAWN,
     AllEvidence,
     Before,
     ConditionalTable,
@@ -48,7 +47,6 @@ from .graph import (
     Variable,
     before,
     equation,
-    graph_svg,
     labelled,
     log_bounds,
     quoted,
@@ -90,7 +88,6 @@ __all__ = [
     "GROWTHS",
     "KINDS",
     "LEAST",
-    "MOST_DRAWN",
     "OPEN",
     "POSES",
     "SENSORS",
@@ -157,7 +154,6 @@ __all__ = [
     "distinct",
     "encode",
     "equation",
-    "graph_svg",
     "growth_between",
     "growth_table",
     "how_known",
