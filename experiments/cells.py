@@ -139,11 +139,10 @@ def _checked(cells: Sequence[Cell], options: Options) -> dict[Key, Cell]:
 
 
 def _parts(options: Options, agent: str = "cogmap") -> Parts:
-    return Parts(agent, options.get("settings") or Settings(), options.get("cscg") or CscgSettings())
+    return Parts(agent, options.get("settings") or Settings(), cscg=options.get("cscg") or CscgSettings())
 
 
 def _made_with(options: Options) -> dict[str, Any]:
     parts = _parts(options)
-    own = {name: value for name, value in parts.settings.to_dict().items() if name != "growth"}  # each row has its own
-    made = {"settings": own, "cscg": parts.cscg.to_dict(), "max_steps": options.get("max_steps")}
+    made = {"settings": parts.settings.to_dict(), "cscg": parts.cscg.to_dict(), "max_steps": options.get("max_steps")}
     return {"cogmap": version("cogmap"), **made}

@@ -7,8 +7,7 @@ import json
 from pathlib import Path
 
 import pytest
-from cogmap.agent import Settings
-from cogmap.experiments import explore
+from cogmap.experiments import Parts, explore
 from cogmap.experiments.studies import growth
 from cogmap.experiments.studies.grid import CAP, Grid
 from cogmap.experiments.studies.growth import GROWN, growth_study, growth_tables
@@ -28,7 +27,7 @@ def test_every_maze_and_way_to_grow_takes_part() -> None:
 def test_rows_are_those_of_explore() -> None:
     found = growth_study(agents=1, seed=4, grid=SMALL)
     for row in found.cells.rows:
-        alone = explore(MAZES[row.world], settings=Settings(growth=row.growth), seed=4, max_steps=CAP)
+        alone = explore(MAZES[row.world], agent=Parts(growth=row.growth), seed=4, max_steps=CAP)
         assert row.run.steps_to_complete == alone.steps_to_complete
     means = {row[0]: row[1:] for row in growth_tables(found)[1].rows}
     assert means["3x3"] == tuple(found.steps("3x3", name).text() for name in GROWN)
