@@ -7,17 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .cells import Cell, Row, run_cell, run_cells
-    from .exploring import (
-        ExploreRun,
-        Walk,
-        exploration,
-        explore,
-        explore_many,
-        frontier_steps,
-        oracle_steps,
-        summarise,
-        walk,
-    )
+    from .exploring import ExploreRun, exploration, explore, explore_many, frontier_steps, oracle_steps, summarise, walk
     from .goals import WEIGHT, check_goal, parse_goal
     from .kidnapping import KidnapRun, check_kidnap, kidnap, kidnap_many, kidnap_result
     from .knowledge import BELIEVED, Truth
@@ -27,8 +17,8 @@ if TYPE_CHECKING:
     from .parts import AGENTS, CSCG, Maker, Parts
     from .pool import WorkerLostError, completed, map_seeds, map_tasks, workers
     from .records import Record, mean, std
-    from .running import Moment, Run, Walker, run
-    from .session import Session, default_steps, draw_start, explored, set_out
+    from .running import Moment, Run, run
+    from .session import Session, default_steps, draw_start, explored
     from .text import count, number, spread
 
 __all__ = [
@@ -49,8 +39,6 @@ __all__ = [
     "Run",
     "Session",
     "Truth",
-    "Walk",
-    "Walker",
     "WorkerLostError",
     "check_goal",
     "check_kidnap",
@@ -80,7 +68,6 @@ __all__ = [
     "run",
     "run_cell",
     "run_cells",
-    "set_out",
     "spread",
     "std",
     "summarise",

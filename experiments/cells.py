@@ -143,6 +143,6 @@ def _parts(options: Options, agent: str = "cogmap") -> Parts:
 
 
 def _made_with(options: Options) -> dict[str, Any]:
-    parts = _parts(options)
-    made = {"settings": parts.settings.to_dict(), "cscg": parts.cscg.to_dict(), "max_steps": options.get("max_steps")}
-    return {"cogmap": version("cogmap"), **made}
+    parts, most = _parts(options), options.get("max_steps")
+    settings = parts.settings.to_dict()
+    return {"cogmap": version("cogmap"), "settings": settings, "cscg": parts.cscg.to_dict(), "max_steps": most}

@@ -26,13 +26,9 @@ def check_outputs(
     """Refuse, before anything is computed, what could not be written afterwards.
 
     Args:
-        paths: the outputs.
+        paths: the outputs, all different.
         inputs: what is read, none of which may be written.
-        picture: which of them is a picture.
-
-    Raises:
-        CogmapError: a folder is missing or not writable, a path is no regular file, one is an input, two are the same,
-            or the suffix of the picture is not one of `PICTURES`.
+        picture: which of them is a picture, with a suffix of `PICTURES`.
     """
     read, seen = {os.path.realpath(path) for path in inputs}, set[Path]()
     for path in paths:

@@ -167,11 +167,7 @@ def default_steps(world: World) -> int:
 
 
 def draw_start(experiment: str, world: World, seed: int) -> tuple[Place, np.random.SeedSequence, np.random.Generator]:
-    """What a seed settles: the place to start in, the stream of the agent, and draws of what happens to it later.
-
-    Raises:
-        CogmapError: `seed` is below 0.
-    """
+    """What a seed of 0 or more settles: where to start, the stream of the agent, and draws of what happens later."""
     if seed < 0:
         raise CogmapError(f"{experiment}: seed is {seed}; use 0 or more")
     for_start, for_agent, later = np.random.SeedSequence(seed).spawn(3)

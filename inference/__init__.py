@@ -7,7 +7,7 @@ from .compiled import CompiledGraph, compile_graph
 from .errors import ImpossibleEvidence
 from .exact import ENGINES
 from .filter import advance, begin
-from .free_energy import FreeEnergy, free_energy, free_energy_of
+from .free_energy import FreeEnergy, free_energy, free_energy_of, is_likelihood
 from .learning import Fit, fit
 from .message import Belief, FilterOptions, Message
 from .posterior import MostProbable, Posterior
@@ -43,6 +43,7 @@ __all__ = [
     "free_energy",
     "free_energy_of",
     "infer",
+    "is_likelihood",
     "k_most_probable",
     "log_product",
     "marginal_map",

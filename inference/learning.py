@@ -160,16 +160,8 @@ class _Tables:
         self.values = [np.exp(digamma(each) - digamma(each.sum(axis=0))) for each in posteriors]
 
     def _with(self, new: Mapping[int, tuple[ConditionalTable, FloatArray]]) -> FactorGraph:
-        graph = FactorGraph()
-        for variable in self.source.variables:
-            graph.add_variable(variable)
-        for factor in self.source.factors:
-            table, values = new.get(id(factor.table), (factor.table, factor.values))
-            graph.add_factor(replace(factor, table=table, values=values))
-        graph = graph.observe_all(self.source.evidence)
-        for name, values in self.source.likelihoods.items():
-            graph = graph.observe(name, dict(zip(graph.variable_named(name).domain, values, strict=True)))
-        return graph
+        tied = [(factor, new[id(factor.table)]) for factor in self.source.factors if id(factor.table) in new]
+        return self.source.replaced(replace(factor, table=table, values=values) for factor, (table, values) in tied)
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,8 +269,9 @@ def _columns(graph: FactorGraph, data: Data) -> tuple[Mapping[str, Sequence[Hash
     rows = list(data)
     if not all(isinstance(row, Mapping) for row in cast(list[object], rows)):
         raise CogmapError("fit: give a mapping of variables to labels, or a list of rows that are mappings")
-    names = dict.fromkeys(name for row in rows for name in row)
-    return {graph.variable_named(name).name: [row.get(name) for row in rows] for name in names}, len(rows)
+    named = [{graph.variable_named(name).name: label for name, label in row.items()} for row in rows]
+    names = dict.fromkeys(name for row in named for name in row)
+    return {name: [row.get(name) for row in named] for name in names}, len(rows)
 
 
 def _indices(graph: FactorGraph, name: str, column: Sequence[Hashable]) -> IntArray:

@@ -33,7 +33,6 @@ from .factors import (
 from .files import make_folder, write_through, write_whole
 from .generative import GenerativeModel
 from .graph import (
-    MOST_DRAWN,
     AllEvidence,
     Before,
     ConditionalTable,
@@ -49,7 +48,6 @@ from .graph import (
     Variable,
     before,
     equation,
-    graph_svg,
     labelled,
     log_bounds,
     quoted,
@@ -91,7 +89,6 @@ __all__ = [
     "GROWTHS",
     "KINDS",
     "LEAST",
-    "MOST_DRAWN",
     "OPEN",
     "POSES",
     "SENSORS",
@@ -159,7 +156,6 @@ __all__ = [
     "distinct",
     "encode",
     "equation",
-    "graph_svg",
     "growth_between",
     "growth_table",
     "how_known",

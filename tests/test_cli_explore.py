@@ -161,11 +161,18 @@ def test_ctrl_c_ends_the_workers_too() -> None:
     process = subprocess.Popen(
         command, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=heeding_ctrl_c
     )
-    time.sleep(2.5)
+    while _children(process.pid) < 3:  # two workers, and what counts their resources
+        assert process.poll() is None
+        time.sleep(0.05)
     os.killpg(process.pid, signal.SIGINT)
     _, errors = process.communicate(timeout=90)
     assert process.returncode == 130
     assert errors == "cogmap: interrupted; nothing more was written\n"
+
+
+def _children(pid: int) -> int:
+    found = subprocess.run(["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True, check=False)
+    return len(found.stdout.split())
 
 
 def test_the_real_command() -> None:

@@ -144,3 +144,24 @@ def test_closures_that_cannot_be(options: list[str], complaint: str) -> None:
     assert refused.exit_code == 2
     assert complaint in " ".join(refused.output.split())
     assert "Traceback" not in refused.output
+
+
+def test_graphs_are_worlds_too() -> None:
+    way = {"right": ("a", "b"), "left": ("b", "a"), "down": ("b", "c"), "up": ("c", "b")}
+    motions = {"left": [0, -1], "right": [0, 1], "up": [-1, 0], "down": [1, 0]}
+    graph = {
+        "directed": True,
+        "graph": {"name": "bend", "motions": motions},
+        "nodes": [{"id": node, "sight": f"room {node}"} for node in "abc"],
+        "edges": [{"source": source, "target": target, "way": name} for name, (source, target) in way.items()],
+    }
+    Path("bend.json").write_text(json.dumps(graph))
+    explored = cogmap("explore", "bend.json", "--json", "e.json", "--trace", "t.json")
+    assert (explored.exit_code, explored.stderr) == (0, "")
+    run = json.loads(Path("e.json").read_text())["runs"][0]
+    assert run["start"] in ("a", "b", "c")
+    assert run["steps_to_complete"] == run["oracle_steps"]
+    assert "map intact: yes" in cogmap("kidnap", "bend.json").stdout
+    known = cogmap("navigate", "bend.json", "--goal", "room c", "--runs", 2, "--agent", "frontier", "--unexplored")
+    assert "reached 2/2" in known.stdout
+    assert cogmap("replay", "t.json").exit_code == 0

@@ -134,7 +134,7 @@ def test_at_an_error_what_has_finished_comes_first() -> None:
     with ThreadPoolExecutor(1) as threads:
         results = completed(square, [1, 2, -1, 3], executor=threads)
         first = next(results)
-        time.sleep(0.1)  # all are done
+        threads.shutdown()  # all are done
         rest: list[tuple[int, int]] = []
         with pytest.raises(ArithmeticError):
             rest.extend(results)
@@ -393,7 +393,7 @@ def test_the_bar_shows_the_time_left_of_what_was_not_done_before(
     )
     assert shown
     hours, minutes, seconds = map(int, shown[-1][4:])
-    assert 30 <= 3600 * hours + 60 * minutes + seconds <= 120  # 492 at ten a second
+    assert 3600 * hours + 60 * minutes + seconds >= 30  # 492 at ten a second or fewer, not at those done at once
 
 
 def _plain(text: str) -> str:

@@ -8,8 +8,16 @@ import math
 import numpy as np
 import pytest
 from cogmap.inference import infer
-from cogmap.model import ConditionalTable, Factor, FactorGraph, LearnableTable, SparseValues, Variable, sparse_values
-from cogmap.model.errors import CogmapError
+from cogmap.model import (
+    CogmapError,
+    ConditionalTable,
+    Factor,
+    FactorGraph,
+    LearnableTable,
+    SparseValues,
+    Variable,
+    sparse_values,
+)
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays

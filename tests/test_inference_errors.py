@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from cogmap.inference import ImpossibleEvidence, infer, most_probable
-from cogmap.model import FactorGraph
-from cogmap.model.errors import CogmapError
+from cogmap.model import CogmapError, FactorGraph
 from test_inference_graphs import ladder
 
 

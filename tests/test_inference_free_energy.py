@@ -7,10 +7,8 @@ import math
 
 import numpy as np
 import pytest
-from cogmap.inference import ImpossibleEvidence, free_energy, free_energy_of, infer
-from cogmap.inference.free_energy import is_likelihood
-from cogmap.model import FactorGraph
-from cogmap.model.errors import CogmapError
+from cogmap.inference import ImpossibleEvidence, free_energy, free_energy_of, infer, is_likelihood
+from cogmap.model import CogmapError, FactorGraph
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_inference_graphs import evidences, graphs, ladder

@@ -6,13 +6,12 @@ import json
 import os
 import shutil
 import subprocess
-import xml.etree.ElementTree as ET
 from html.parser import HTMLParser
 from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.model import MOST_DRAWN, CogmapError, ConditionalTable, FactorGraph, sparse_values
+from cogmap.model import CogmapError, ConditionalTable, FactorGraph, sparse_values
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -242,40 +241,3 @@ def test_html_has_the_equation_first_and_escapes_everything() -> None:
         many.variable(f"x{i}", range(50))
     assert "… 70 more" in many._repr_html_()
     assert "(50 in all)" in many._repr_html_()
-
-
-def test_svg_stands_in_time_and_tells_observed_from_latent() -> None:
-    graph = walked(load_world("3x3_alias"), 4).graph.observe("moved1", False)
-    root = ET.fromstring(graph._repr_svg_() or "")
-    name = "{http://www.w3.org/2000/svg}"
-    circles = list(root.iter(f"{name}circle"))
-    squares = list(root.iter(f"{name}rect"))
-    assert (len(circles), len(squares)) == (len(graph.variables), len(graph.factors))
-    assert len(list(root.iter(f"{name}line"))) == sum(len(factor.scope) for factor in graph.factors)
-    assert {square.get("fill") for square in squares} == {"black"}
-    at: dict[str, tuple[float, float]] = {}
-    for variable, circle in zip(graph.variables, circles, strict=True):
-        assert (circle.get("fill") == "white") != graph.is_observed(variable)
-        at[variable.name] = float(circle.get("cx", "")), float(circle.get("cy", ""))
-    assert at["s1"][0] < at["s2"][0] < at["s3"][0]
-    assert at["s1"][1] == at["s2"][1] == at["s3"][1]
-    spots = [*at.values(), *((float(s.get("x", "")) + 6, float(s.get("y", "")) + 6) for s in squares)]
-    gaps = [np.hypot(a[0] - b[0], a[1] - b[1]) for i, a in enumerate(spots) for b in spots[:i]]
-    assert min(gaps) > 20.0, "nodes overlap"
-
-
-@settings(max_examples=40, deadline=None)
-@given(graphs())
-def test_svg_is_xml_whatever_the_names(graph: FactorGraph) -> None:
-    root = ET.fromstring(graph._repr_svg_() or "")
-    assert len(list(root.iter("{http://www.w3.org/2000/svg}title"))) == len(graph.variables) + len(graph.factors)
-
-
-def test_svg_of_nothing_and_of_too_much_is_none() -> None:
-    graph = FactorGraph()
-    assert graph._repr_svg_() is None
-    for i in range(MOST_DRAWN):
-        graph.variable(f"x{i}", [0])
-    assert graph._repr_svg_() is not None
-    graph.factor("f", ["x0"], [1])
-    assert graph._repr_svg_() is None

@@ -7,8 +7,7 @@ from typing import Any
 
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.model import CogmapError, CognitiveMap, Motions
-from cogmap.model.growth_table import growth_between, growth_table
+from cogmap.model import CogmapError, CognitiveMap, Motions, growth_between, growth_table
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st

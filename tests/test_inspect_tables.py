@@ -14,10 +14,11 @@ from cogmap.model import (
     FactorGraph,
     LabelledTable,
     Motions,
+    counts_of,
     labelled,
+    map_table,
     table,
 )
-from cogmap.model.map_tables import counts_of, map_table
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st

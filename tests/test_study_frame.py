@@ -1,187 +1,311 @@
+"""What all studies have in common: tasks, rows, and the files that they leave."""
+
 from __future__ import annotations
 
+import csv
 import json
-import sys
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from base64 import b64decode
+from collections.abc import Iterator
+from concurrent.futures import Executor
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
-import numpy as np
 import pytest
 from cogmap.agent import Settings
-from cogmap.experiments import Session, explored
-from cogmap.experiments.studies.frame import STUDIES, Study, study_named
-from cogmap.experiments.studies.imagined import imagined_paths, room_of
-from cogmap.experiments.studies.saving import check_folder, save_study, study_report
+from cogmap.experiments import workers
+from cogmap.experiments.studies import Asked, Findings, Study, run_studies, run_study, studies, study_named
 from cogmap.model import CogmapError
-from cogmap.views import VERMILION, plot_belief, plot_policies
-from cogmap.worlds import MAZES
-from matplotlib.collections import LineCollection
-from matplotlib.colors import to_rgba
-from matplotlib.figure import Figure
+from command_line import cogmap
+from pages import Page
+from toy_study import NASTY, Tabled, Toy
 
-PACKAGE = "cogmap.experiments.studies"
-
-
-class Found:
-    """A result of nothing."""
-
-    def __init__(self, **given: Any) -> None:
-        self.given = given
-
-    def to_dict(self) -> dict[str, Any]:
-        return {"rows": [{"seed": 7}], "summary": {"agents": 1}}
-
-
-@pytest.fixture
-def stub() -> Iterator[Study]:
-    module, drawn = ModuleType(f"{PACKAGE}.stub"), ModuleType(f"{PACKAGE}.stub_figures")
-    module.SETTINGS = Settings(look_ahead=9, goal_weight=2.0)  # type: ignore[attr-defined]
-    module.stub_study = lambda **given: Found(**given)  # type: ignore[attr-defined]
-    module.stub_lines = lambda result: ["a line"]  # type: ignore[attr-defined]
-    drawn.stub_figures = lambda result: {"stub_one": Figure()}  # type: ignore[attr-defined]
-    sys.modules |= {module.__name__: module, drawn.__name__: drawn}
-    yield Study("stub", 3)
-    del sys.modules[module.__name__], sys.modules[drawn.__name__]
+NAMES = [
+    "cost",
+    "donut",
+    "exploration",
+    "goals",
+    "growth",
+    "insight",
+    "localisation",
+    "martinet",
+    "rooms",
+    "tolman",
+]
 
 
-def test_a_study_runs_with_its_own_settings_unless_told_otherwise(stub: Study) -> None:
-    own: Any = stub.run(agents=2, seed=5)
-    assert own.given == {"agents": 2, "seed": 5, "settings": None, "executor": None, "on_done": None}
-    assert stub.parts(2) == 2
-    kept: Any = replace(stub, keeps_cells=True).run(agents=1, ledger=None)
-    assert set(kept.given) - set(own.given) == {"ledger"}
-    other: Any = stub.run(agents=2, look_ahead=4)
-    assert other.given["settings"] == Settings(look_ahead=4, goal_weight=2.0)
-    assert stub.settings() == Settings(look_ahead=9, goal_weight=2.0)
-    with pytest.raises(CogmapError, match="look_ahead is 0"):
-        stub.run(agents=2, look_ahead=0)
+def saved(folder: Path | str, study: str) -> dict[str, Any]:
+    return json.loads(Path(folder, f"{study}.json").read_text())
 
 
-def test_what_a_study_leaves_in_its_folder(stub: Study, tmp_path: Path) -> None:
-    result = stub.run(agents=1)
-    report = study_report(stub, result, agents=1, seed=7, settings=stub.settings())
-    written = save_study(tmp_path / "a" / "b", stub, result, report)
-    names = ["stub.json", "stub.csv", "stub_summary.csv", "stub_one.png", "stub_one.svg", "stub.md", "stub.html"]
-    assert [path.name for path in written] == names
-    assert all(path.stat().st_size for path in written)
-    saved = json.loads(written[0].read_text())
-    assert (saved["study"], saved["agents"], saved["seed"], saved["rows"]) == ("stub", 1, 7, [{"seed": 7}])
-    assert saved["settings"]["look_ahead"] == 9
-    assert set(saved["versions"]) >= {"cogmap", "python", "numpy", "platform"}
-    assert set(saved["machine"]) >= {"processor", "cores", "system"}
-    assert saved["command"] == "cogmap study stub --runs 1 --seed 7"
-    other = study_report(stub, result, agents=1, seed=7, settings=stub.settings(4))
-    assert other["command"].endswith(" --seed 7 --look-ahead 4")
+def table(path: Path) -> list[list[str]]:
+    with path.open(newline="") as file:
+        return list(csv.reader(file))
+
+
+# -- rows --------------------------------------------------------------------------------------------------
+
+
+def test_a_study_runs_with_its_own_settings_unless_told_otherwise() -> None:
+    assert [row.seed for row in Toy().rows()] == [0, 1, 2]
+    assert [(row.seed, row.look_ahead) for row in Toy().rows(2, seed=5)] == [(5, 9), (6, 9)]
+    assert Toy().rows(1, settings=Settings(look_ahead=4))[0].look_ahead == 4
+
+
+def test_rows_do_not_depend_on_where_they_are_made() -> None:
+    done: list[None] = []
+    with workers(jobs=2) as executor:
+        assert Toy().rows(4, executor=executor, on_done=lambda: done.append(None)) == Toy().rows(4)
+    assert len(done) == 4
+
+
+def test_a_study_that_must_be_alone_is_never_given_an_executor() -> None:
+    class Refusing(Executor):
+        def submit(self, *args: Any, **kwargs: Any) -> Any:
+            pytest.fail("it ran beside something else")
+
+    class Alone(Toy):
+        alone = True
+
+    assert len(Alone().rows(2, executor=Refusing())) == 2
+
+
+@pytest.mark.parametrize(("numbers", "message"), [({"agents": 0}, "agents is 0"), ({"seed": -1}, "seed is -1")])
+@pytest.mark.parametrize("name", NAMES)
+def test_bad_numbers_are_refused_before_anything_is_run(name: str, numbers: dict[str, int], message: str) -> None:
+    with pytest.raises(CogmapError, match=f"^{name}: {message}; use . or more$"):
+        study_named(name).rows(**numbers)
+
+
+def test_what_a_protocol_does_no_time_is_refused() -> None:
+    with pytest.raises(CogmapError, match="toy: times is 0; use 1 or more"):
+        Toy(times=0)
+
+
+# -- the studies of the package ----------------------------------------------------------------------------
+
+
+def test_every_study_is_found_and_says_what_it_asks() -> None:
+    assert list(studies()) == NAMES
+    for name, study in studies().items():
+        title, question = study.asks
+        assert study_named(name) is study
+        assert title
+        assert "?" in question
+        assert study.notes
 
 
 def test_unknown_studies_are_refused() -> None:
-    with pytest.raises(CogmapError, match=r"no study is called 'x'; choose one of exploration, rooms.*, or all"):
+    with pytest.raises(CogmapError, match=r"no study is called 'x'; choose one of cost, donut.*, or all"):
         study_named("x")
-    assert study_named("donut") is STUDIES["donut"]
 
 
-def test_folders_that_could_not_be_written_are_refused(tmp_path: Path) -> None:
+# -- what is left in a folder ------------------------------------------------------------------------------
+
+
+def test_what_a_study_leaves_in_its_folder(tmp_path: Path) -> None:
+    outcome = run_study(Toy(), tmp_path / "a" / "b", Asked(runs=2, seed=7))
+    tables = ["toy.csv", "toy_steps.csv", "toy_steps_ways.csv", "toy_summary.csv"]
+    pictures = [f"toy_{name}.{suffix}" for name in ("one", "two") for suffix in ("png", "svg")]
+    assert [path.name for path in outcome.written] == ["toy.json", *tables, *pictures, "toy.md", "toy.html"]
+    assert set(outcome.written) == set((tmp_path / "a" / "b").iterdir())
+    assert all(path.stat().st_size for path in outcome.written)
+    report = saved(tmp_path / "a" / "b", "toy")
+    assert (report["study"], report["agents"], report["seed"]) == ("toy", 2, 7)
+    assert (report["settings"]["look_ahead"], report["settings"]["goal_weight"]) == (9, 2.0)
+    assert report["rows"][1]["steps"] == [{"x": 0, "ways": []}, {"x": 1, "ways": [{"p": 0.5}]}]
+    assert set(report["versions"]) >= {"cogmap", "python", "numpy", "scipy", "platform"}
+    assert set(report["machine"]) >= {"processor", "cores", "system", "OMP_NUM_THREADS"}
+    assert report["command"] == "cogmap study toy --runs 2 --seed 7"
+    assert (outcome.agents, outcome.lines, len(outcome.failed)) == (2, ["2 rows"], 1)
+
+
+def test_another_look_ahead_is_in_the_command(tmp_path: Path) -> None:
+    run_study(Toy(), tmp_path, Asked(runs=1, look_ahead=4))
+    assert saved(tmp_path, "toy")["command"].endswith("--seed 0 --look-ahead 4")
+    run_study(Toy(), tmp_path, Asked(runs=1, look_ahead=9))  # its own
+    assert saved(tmp_path, "toy")["command"].endswith("--seed 0")
+    with pytest.raises(CogmapError, match="look_ahead is 0"):
+        run_study(Toy(), tmp_path, Asked(look_ahead=0))
+
+
+def test_every_list_of_rows_is_a_table(tmp_path: Path) -> None:
+    run_study(Toy(), tmp_path, Asked(runs=2, seed=5))
+    rows, steps, ways, summary = (
+        table(tmp_path / f"toy{part}.csv") for part in ("", "_steps", "_steps_ways", "_summary")
+    )
+    assert rows == [
+        ["seed", "look_ahead", "at", "choice.route", "choice"],
+        ["5", "9", "[5, 2]", "3", ""],
+        ["6", "9", "[6, 2]", "", ""],
+    ]
+    assert steps == [
+        ["seed", "step", "x", "ways"],
+        ["5", "0", "0", "[]"],
+        ["5", "1", "1", ""],
+        *[["6", *row] for row in (["0", "0", "[]"], ["1", "1", ""])],
+    ]
+    assert ways == [["seed", "step", "way", "p"], ["5", "1", "0", "0.5"], ["6", "1", "0", "0.5"]]
+    assert summary == [
+        ["name", "value"],
+        ["agents", "2"],
+        ["part.half", "0.5"],
+        ["part.yes", "True"],
+        [f"part.{NASTY}", NASTY],
+    ]
+
+
+def test_tables_of_its_own_say_what_there_is(tmp_path: Path) -> None:
+    run_study(Tabled(), tmp_path, Asked(runs=1))
+    assert table(tmp_path / "tabled.csv")[1] == [
+        "",
+        "True",
+        "False",
+        "3",
+        "0.5",
+        "12345.6",
+        str(1 / 3),
+        "x, y",
+        '"',
+        "two\nlines",
+    ]
+    markdown = (tmp_path / "tabled.md").read_text()
+    assert '| – | yes | no | 3 | 0.5 | 12346 | 0.3333 | x, y | " | two lines |' in markdown
+    assert "- `tabled_hidden.csv`: hidden" in markdown
+    assert "| c |" not in markdown
+    assert "not in the report" not in markdown
+    assert "## What failed\n\n- Nothing.\n" in markdown
+
+
+def test_text_is_shown_as_it_is_and_the_page_needs_nothing_else(tmp_path: Path) -> None:
+    run_study(Toy(), tmp_path, Asked(runs=2))
+    html = (tmp_path / "toy.html").read_text()
+    page = Page(html)
+    tags = {tag for tag, _ in page.tags}
+    assert page.text.count(NASTY) == 6  # title twice, failure, note, and twice in the table
+    assert not {"a", "em", "e", "script", "link", "iframe", "object"} & tags
+    assert "url(" not in html
+    assert "@import" not in html
+    pictures = [str(attrs["src"]).split(",") for tag, attrs in page.tags if tag == "img"]
+    assert [kind for kind, _ in pictures] == ["data:image/svg+xml;base64"] * 2
+    assert b64decode(pictures[0][1]) == (tmp_path / "toy_one.svg").read_bytes()
+    assert "Does it do anything?" in page.text
+    assert "2 rows" in page.text
+
+
+def test_figures_that_are_no_numbers_are_refused(tmp_path: Path) -> None:
+    class Broken(Toy):
+        def summarise(self, rows: Any) -> Findings:
+            return Findings({"rows": [], "value": float("nan")}, [], {})
+
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        run_study(Broken(), tmp_path, Asked(runs=1))
+
+
+@pytest.mark.parametrize("folder", ["file", "file/below", "n" * 300])
+def test_folders_that_could_not_be_written_are_refused_at_once(tmp_path: Path, folder: str) -> None:
     (tmp_path / "file").write_text("")
-    (tmp_path / "there" / "x.json").mkdir(parents=True)
-    for folder in ("file", "file/below", "n" * 300):
-        with pytest.raises(CogmapError, match="cannot make folder"):
-            check_folder(tmp_path / folder, "x")
-    with pytest.raises(CogmapError, match="it is a folder"):
-        check_folder(tmp_path / "there", "x")
-    check_folder(tmp_path / "new" / "deep", "x")
-    check_folder(tmp_path, "x")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "there"]
-
-
-def test_a_folder_that_appears_as_a_file_meanwhile(stub: Study, tmp_path: Path) -> None:
-    (tmp_path / "late").write_text("")
     with pytest.raises(CogmapError, match="cannot make folder"):
-        save_study(tmp_path / "late", stub, stub.run(agents=1), {})
+        run_study(Toy(loud=True), tmp_path / folder)
+    (tmp_path / "there" / "toy.json").mkdir(parents=True)
+    with pytest.raises(CogmapError, match="it is a folder"):
+        run_study(Toy(loud=True), tmp_path / "there")
 
 
-# -- imagined paths ----------------------------------------------------------------------------------------
+# -- the command -------------------------------------------------------------------------------------------
 
 
-@pytest.fixture(scope="module")
-def session() -> Session:
-    session = explored("test", MAZES["3x3"], 1, settings=Settings(look_ahead=4), max_steps=100)
-    session.agent.prefer({8: 3.0})
-    session.agent.step(session.world.observe())
-    return session
+@pytest.mark.usefixtures("empty_folder")
+def test_a_study_by_name() -> None:
+    result = cogmap("study", "donut", "--agents", 1, "--seed", 3, "--look-ahead", 11)
+    assert result.exit_code == 0
+    assert "1 of 1 agents explored donut" in result.stdout
+    assert "written: study-donut/donut.html" in result.stdout
+    report = saved("study-donut", "donut")
+    assert (report["agents"], report["settings"]["look_ahead"], [row["seed"] for row in report["rows"]]) == (1, 11, [3])
+    names = {f"donut.{suffix}" for suffix in ("json", "csv", "md", "html")}
+    names |= {"donut_frames.png", "donut_frames.svg", "donut_steps.csv", "donut_steps_paths.csv", "donut_summary.csv"}
+    assert {path.name for path in Path("study-donut").iterdir()} == names
 
 
-def walked(session: Session, policy: list[int]) -> tuple[tuple[int, int], ...]:
-    """The rooms of a policy, walked in the world itself."""
-    here = session.world.position
-    rooms = [here]
-    for action in policy:
-        session.world.step(action)
-        if session.world.position != rooms[-1]:
-            rooms.append(session.world.position)
-    session.world.displace(here)
-    return tuple(rooms)
-
-
-def test_imagined_paths_are_those_of_the_world(session: Session) -> None:
-    plan = session.agent.plan
-    expected: dict[tuple[tuple[int, int], ...], float] = {}
-    for policy, p in zip(plan.policies.tolist(), plan.probability.tolist(), strict=True):
-        rooms = walked(session, policy)
-        expected[rooms] = expected.get(rooms, 0.0) + p
-    found = {path.rooms: path.probability for path in imagined_paths(plan, session.agent.map, session.start)}
-    assert found == pytest.approx({rooms: p for rooms, p in expected.items() if p >= 1e-3}, abs=1e-3)
-    assert list(found.values()) == sorted(found.values(), reverse=True)
-
-
-def test_a_divided_belief_has_paths_from_every_place(session: Session) -> None:
-    plan = session.agent.plan
-    inside = np.flatnonzero(plan.places >= 0)[:2]
-    belief = np.zeros_like(plan.model.belief)
-    belief[inside] = 0.25, 0.75
-    divided = replace(plan, model=replace(plan.model, belief=belief))
-    mass = {}
-    for path in imagined_paths(divided, session.agent.map, session.start):
-        mass[path.rooms[0]] = mass.get(path.rooms[0], 0.0) + path.probability
-    rooms = [room_of(session.agent.map, int(place), session.start) for place in plan.places[inside]]
-    assert mass == pytest.approx(dict(zip(rooms, (0.25, 0.75), strict=True)), abs=0.02)
-    assert room_of(session.agent.map, -1, session.start) is None
-
-
-# -- plots -------------------------------------------------------------------------------------------------
-
-
-def test_bars_are_as_high_as_places_are_probable() -> None:
-    ax = plot_belief({"a": 0.25, "b": 0.75}, true="b", threshold=0.7, title="here")
-    assert [bar.get_height() for bar in ax.patches] == [0.25, 0.75]  # type: ignore[attr-defined]
-    assert [bar.get_facecolor() == to_rgba(VERMILION) for bar in ax.patches] == [False, True]
-    assert [label.get_text() for label in ax.get_xticklabels()] == ["a", "▲ b"]
-    assert ax.lines[0].get_ydata()[0] == 0.7  # type: ignore[index]
-
-
-def test_ways_are_as_dark_as_they_are_probable() -> None:
-    paths = {((0, 0), (0, 1), (0, 0)): 0.25, ((0, 0), (0, 1), (0, 2)): 0.75, ((0, 0),): 0.001}
-    ax = plot_policies(paths, title="here")
-    shaded = [part for part in ax.collections if isinstance(part, LineCollection)][-1]
-    lines = [tuple(map(tuple, segment)) for segment in shaded.get_segments()]
-    assert lines == [((1.0, 0.0), (2.0, 0.0)), ((0.0, 0.0), (1.0, 0.0))]  # x, y; there and back counts once
-    greys = [colour[0] for colour in np.asarray(shaded.get_color())]
-    assert greys == pytest.approx([0.85 * 0.25, 0.0])
-    assert plot_policies(paths, ax=ax) is ax
+def test_the_help_names_every_study() -> None:
+    shown = " ".join(cogmap("study", "--help").stdout.split())
+    assert all(name in shown for name in NAMES)
 
 
 @pytest.mark.parametrize(
-    ("draw", "message"),
+    ("arguments", "message"),
     [
-        (lambda: plot_belief({}), "one or more places"),
-        (lambda: plot_belief({"a": 1.5}), "from 0 to 1"),
-        (lambda: plot_belief({"a": float("nan")}), "from 0 to 1"),
-        (lambda: plot_policies({(): 1.0}), "no cells"),
-        (lambda: plot_policies({((0, 0, 0),): 1.0}), "3 dimensions"),
+        ([], "Missing argument"),
+        (["nothing"], "no study is called 'nothing'; choose one of cost"),
+        (["donut", "--runs", "0"], "--runs"),
+        (["donut", "--agents", "-1"], "--agents"),
+        (["donut", "--agents", "many"], "--agents"),
+        (["donut", "--seed", "-1"], "--seed"),
+        (["donut", "--jobs", "0"], "--jobs"),
+        (["growth", "--jobs", "2", "--dask", "localhost:1"], "give one of them"),
+        (["all", "--out", "file"], "cannot make folder file"),
+        (["all", "--look-ahead", "0"], "--look-ahead"),
+        (["donut", "--look-ahead", "0"], "--look-ahead"),
+        (["donut", "--out", "file"], "cannot make folder file"),
+        (["donut", "--out", "file/below"], "cannot make folder file/below"),
     ],
 )
-def test_plots_refuse_what_they_cannot_draw(draw: Callable[[], object], message: str) -> None:
-    with pytest.raises(CogmapError, match=message):
-        draw()
+@pytest.mark.usefixtures("empty_folder")
+def test_bad_input_is_one_line_and_exit_code_2(arguments: list[str], message: str) -> None:
+    Path("file").write_text("")
+    result = cogmap("study", *arguments)
+    assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+    assert message in result.stderr
+    assert result.stderr.startswith("cogmap: ")
+    assert [path.name for path in Path().iterdir()] == ["file"]
+
+
+# -- all of them -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def three() -> Iterator[dict[str, Study[Any, Any]]]:
+    """Three studies in place of those of the package; one fails."""
+    mine, others = studies(), dict(studies())
+    mine.clear()
+    mine |= {"broken": Toy(loud=True), "fine": Tabled(), "toy": Toy()}
+    yield mine
+    mine.clear()
+    mine.update(others)
+
+
+@pytest.mark.usefixtures("empty_folder", "three")
+def test_a_study_that_fails_does_not_stop_the_others() -> None:
+    result = cogmap("study", "all", "--runs", 2, "--seed", 4, "--out", "here")
+    assert result.exit_code == 1
+    assert "toy failed: RuntimeError: out of luck" in result.stdout
+    assert {"index.md", "index.html", "index.csv", "tabled"} <= {path.name for path in Path("here").iterdir()}
+    markdown = Path("here/index.md").read_text()
+    assert "2 of 3 studies were run to their end" in markdown
+    assert "- toy: RuntimeError: out of luck" in markdown
+    assert "- toy: 1 listed in its report" in markdown  # what did not get there is not nothing
+    assert "Nothing." not in markdown
+    assert "cogmap study all --runs 2 --seed 4\n" in markdown
+    links = [attrs["href"] for tag, attrs in Page(Path("here/index.html").read_text()).tags if tag == "a"]
+    assert links == ["tabled/tabled.html", "toy/toy.html"]
+    assert all(Path("here", str(link)).is_file() for link in links)
+    rows = [row[:2] + row[3:] for row in table(Path("here/index.csv"))]
+    assert rows[1:] == [["toy", "2", "failed", "0"], ["tabled", "2", "done", "0"], ["toy", "2", "done", "1"]]
+
+
+@pytest.mark.usefixtures("empty_folder")
+def test_where_nothing_fails_the_exit_code_is_0(three: dict[str, Study[Any, Any]]) -> None:
+    del three["broken"], three["toy"]
+    result = cogmap("study", "all")
+    assert result.exit_code == 0
+    assert "written: study-all/index.html" in result.stdout
+    assert "- Nothing." in Path("study-all/index.md").read_text()
+    assert saved("study-all/tabled", "tabled")["agents"] == 3
+
+
+@pytest.mark.usefixtures("three")
+def test_outcomes_are_told_as_they_come(tmp_path: Path) -> None:
+    told: list[str] = []
+    outcomes, _ = run_studies(tmp_path, Asked(runs=1), on_outcome=lambda one: told.append(one.failure))
+    assert [bool(failure) for failure in told] == [True, False, False]
+    assert [outcome.agents for outcome in outcomes] == [1, 1, 1]

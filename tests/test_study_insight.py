@@ -1,74 +1,97 @@
+"""The study `insight`, and its control that learns by reward."""
+
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import pytest
-from cogmap.baselines.habit import HabitAgent
+from cogmap.baselines import HabitAgent
 from cogmap.experiments import workers
-from cogmap.experiments.studies.insight import MOST, insight_lines, insight_study
-from cogmap.experiments.studies.insight_figures import insight_figures
-from cogmap.experiments.studies.insight_rows import RATS, InsightResult, InsightRow, route_3_first
-from cogmap.experiments.studies.tolman_maze import FORK, MAZE, RUNS, START, B, TolmanRun
-from cogmap.model import CogmapError
-from cogmap.worlds import GRID, Maze, MazeEnv, WorldError, shortest_path
+from cogmap.experiments.studies import Asked, run_study, study_named
+from cogmap.worlds import GRID, MAZES, Maze, MazeEnv, Position, WorldError, shortest_path
 
 UP, DOWN, LEFT, RIGHT, STAY = range(5)
+MAZE = MAZES["tolman"]
+START, FORK, A, B = (6, 2), (3, 2), (4, 2), (2, 2)
 TO_FORK = shortest_path(MAZE, START, FORK)
+BACK = TO_FORK[::-1][1:]
+TO_FORK_BY_2 = shortest_path(MAZE, START, FORK, closed=[A])
+BY_3 = shortest_path(MAZE, START, (0, 2), closed=[B])
+STUDY = study_named("insight")
 
 
 @pytest.fixture(scope="module")
-def result() -> InsightResult:
-    return insight_study(agents=1)
+def rows() -> list[Any]:
+    return STUDY.rows(1)
 
 
-def row(*paths: list[tuple[int, int]]) -> InsightRow:
-    runs = tuple(TolmanRun(B, tuple(path), None) for path in paths)
-    return InsightRow(0, runs, runs)
+@pytest.fixture
+def made(rows: list[Any]) -> Any:
+    """Makes a row of paths with B closed, as if somebody had walked them."""
+    row = rows[0][0]
+
+    def make(*paths: Sequence[Position]) -> Any:
+        world = MazeEnv(MAZE)
+        world.close_room(B)
+        runs = [type(row.probe[0]).of(path, None, world) for path in paths]
+        return type(row).of(0, runs, runs)
+
+    return make
 
 
-def test_agents_and_controls_are_trained_in_the_open_and_tested_with_b_closed(result: InsightResult) -> None:
-    for one in (*result.agents, *result.controls):
-        assert [run.closed for run in one.training] == [None] * RUNS
-        assert {run.closed for run in one.probe} == {B}
-        assert 1 <= len(one.probe) <= MOST
+def test_agents_and_controls_are_trained_in_the_open_and_tested_with_b_closed(rows: list[Any]) -> None:
+    for one in rows[0]:
+        assert len(one.training) == 12
+        assert any(B in run.path for run in one.training)
+        assert all(B not in run.path for run in one.probe)
+        assert 1 <= len(one.probe) <= 60
 
 
-def test_the_control_reaches_the_goal_by_habit_but_does_not_know_the_way_round(result: InsightResult) -> None:
-    (control,) = result.controls
+def test_the_control_reaches_the_goal_by_habit_but_does_not_know_the_way_round(rows: list[Any]) -> None:
+    agent, control = rows[0]
     assert sum(run.route == 1 for run in control.training) >= 9
-    assert control.choice is not None
     assert control.choice.route == 2
-    agent = result.agents[0]
     assert agent.steps_to_goal is not None
     assert control.steps_to_goal is None or control.steps_to_goal > 3 * agent.steps_to_goal
 
 
-def test_who_meets_nothing_counts_against(result: InsightResult) -> None:
-    round_by_3 = row([*TO_FORK, *TO_FORK[::-1][1:], (6, 3)])
-    left = row([*TO_FORK, (3, 1)])
-    never = row([START, START])
-    share = route_3_first([round_by_3, left, never])
+def test_what_is_tried_after_the_block(made: Any) -> None:
+    round_by_3 = made([*TO_FORK, *BACK, *BY_3[1:]]).choice
+    assert (round_by_3.met_by, round_by_3.route, round_by_3.at_fork, round_by_3.again) == (1, 3, False, 0)
+    assert round_by_3.steps == len(BACK) + 1
+    left = made([*TO_FORK, (3, 1)]).choice
+    assert (left.route, left.at_fork, left.steps) == (2, True, 1)
+    assert made(BY_3).choice is None  # never met
+    assert made(TO_FORK).choice is None  # nothing tried
+
+
+def test_going_back_the_way_it_came_is_not_trying_it_again(made: Any) -> None:
+    choice = made([*TO_FORK_BY_2, (3, 1)], TO_FORK, BY_3).choice
+    assert (choice.met_by, choice.route, choice.again) == (2, 3, 1)
+
+
+def test_who_meets_nothing_counts_against(made: Any) -> None:
+    round_by_3, left, never = made([*TO_FORK, *BACK, (6, 3)]), made([*TO_FORK, (3, 1)]), made([START, START])
+    found = STUDY.summarise([(round_by_3, left), (left, left), (never, left)])
+    share = found.json["summary"]["agents"]["route_3_first"]
     assert (share.count, share.of) == (1, 3)
-    both = InsightResult((round_by_3,) * 9, (left,) * 9)
-    assert both.p_value == pytest.approx(1 / 48620)  # one table of C(18, 9)
-    assert InsightResult((left,), (left,)).p_value == pytest.approx(1.0)
-    assert insight_figures(InsightResult((never,), (never,)))
+    assert "1 of 3 agents never met the block (seeds 0)" in found.failed
+    both = STUDY.summarise([(round_by_3, left)] * 9)
+    assert both.json["summary"]["p_value"] == pytest.approx(1 / 48620)  # one table of C(18, 9)
+    assert STUDY.summarise([(left, left)]).json["summary"]["p_value"] == pytest.approx(1.0)
+    assert STUDY.summarise([(never, never)]).figures["insight_choice"]()
 
 
-def test_json_lines_and_figures(result: InsightResult) -> None:
-    report = result.to_dict()
-    assert json.loads(json.dumps(report, allow_nan=False)) == report
-    assert report["summary"]["rats"]["route_3_first"]["count"] == RATS.count == 9
-    assert len(insight_lines(result)) == 6
-    assert set(insight_figures(result)) == {"insight_choice"}
-
-
-@pytest.mark.parametrize("wrong", [{"agents": 0}, {"agents": 1, "runs": 0}, {"agents": 1, "seed": -1}])
-def test_bad_numbers_are_refused_in_one_line(wrong: dict[str, int]) -> None:
-    with pytest.raises(CogmapError) as error:
-        insight_study(**wrong)
-    assert "\n" not in str(error.value)
+def test_what_is_left(tmp_path: Path) -> None:
+    outcome = run_study(STUDY, tmp_path, Asked(runs=1))
+    report = json.loads((tmp_path / "insight.json").read_text())
+    assert report["summary"]["rats"]["route_3_first"]["count"] == 9
+    assert len(report["rows"]) == len(report["controls"]) == 1
+    assert len(outcome.lines) == 6
+    assert (tmp_path / "insight_choice.png").is_file()
 
 
 @pytest.mark.study
@@ -77,10 +100,11 @@ def test_nine_of_ten_try_route_3_first_and_habit_does_not(seed: int, study: bool
     if not study and seed:
         pytest.skip("one seed in the small form")
     with workers(jobs=2) as executor:
-        result = insight_study(agents=40 if study else 2, seed=seed, executor=executor)
-    assert route_3_first(result.agents).share >= 0.9
-    assert route_3_first(result.controls).share <= 0.1
-    assert all(sum(run.reached_at is not None for run in one.training) >= 9 for one in result.controls)
+        rows = STUDY.rows(40 if study else 2, seed=seed, executor=executor)
+    summary = STUDY.summarise(rows).json["summary"]
+    assert summary["agents"]["route_3_first"].share >= 0.9
+    assert summary["controls"]["route_3_first"].share <= 0.1
+    assert all(sum(run.reached_at is not None for run in control.training) >= 9 for _, control in rows)
 
 
 # -- habit alone -------------------------------------------------------------------------------------------

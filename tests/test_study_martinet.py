@@ -1,88 +1,89 @@
+"""The study `martinet`: forced, free, A closed, B closed."""
+
 from __future__ import annotations
 
 import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
-import numpy as np
 import pytest
 from cogmap.experiments import workers
-from cogmap.experiments.studies.martinet import _apart, martinet_lines, martinet_study  # pyright: ignore[reportPrivateUsage]
-from cogmap.experiments.studies.martinet_figures import martinet_figures
-from cogmap.experiments.studies.martinet_rows import BLOCKED, FREE, PROBES, MartinetResult, MartinetRow, MartinetRun
+from cogmap.experiments.studies import Asked, run_study, study_named
 from cogmap.model import CogmapError
+
+STUDY: Any = study_named("martinet")
+SMALL: Any = replace(STUDY, days=2)
 
 
 @pytest.fixture(scope="module")
-def result() -> MartinetResult:
-    return martinet_study(agents=1, days=2)
+def rows() -> list[Any]:
+    return SMALL.rows(1)
 
 
-def made(*routes: int | None, condition: str = "A closed", day: int = 2) -> MartinetRow:
-    return MartinetRow(0, tuple(MartinetRun(day, condition, route, 12) for route in routes))
+def made(rows: list[Any], *routes: int | None, condition: str = "A closed", day: int = 2) -> Any:
+    row, one = rows[0], rows[0].runs[0]
+    return type(row).of(0, [replace(one, day=day, condition=condition, route=route, steps=12) for route in routes])
 
 
-def test_the_protocol_day_by_day(result: MartinetResult) -> None:
-    (row,) = result.rows
-    conditions = [[run.condition for run in row.runs if run.day == day] for day in (1, 2, 3)]
-    assert conditions[0] == ["forced"] * 3 + ["free"] * FREE
-    assert sorted(conditions[1]) == ["A closed"] * BLOCKED + ["free"] * 2
-    assert conditions[2] == ["B closed"] * PROBES
+def test_the_protocol_day_by_day(rows: list[Any]) -> None:
+    conditions = [[run.condition for run in rows[0].runs if run.day == day] for day in (1, 2, 3)]
+    assert conditions[0] == ["forced"] * 3 + ["free"] * 9
+    assert sorted(conditions[1]) == ["A closed"] * 10 + ["free"] * 2
+    assert conditions[2] == ["B closed"] * 7
 
 
-def test_forced_runs_take_the_only_route_open_and_a_closed_room_is_never_passed(result: MartinetResult) -> None:
-    (row,) = result.rows
-    assert [run.route for run in row.runs if run.condition == "forced"] in ([1, 2, 3], [None, 2, 3])
-    assert {run.route for run in row.runs if "closed" in run.condition} <= {2, 3, None}
+def test_forced_runs_take_the_only_route_open_and_a_closed_room_is_never_passed(rows: list[Any]) -> None:
+    assert [run.route for run in rows[0].runs if run.condition == "forced"] in ([1, 2, 3], [None, 2, 3])
+    assert {run.route for run in rows[0].runs if "closed" in run.condition} <= {2, 3, None}
 
 
-def test_the_two_free_runs_of_a_day_are_apart() -> None:
-    rng = np.random.default_rng(0)
-    pairs = [_apart(rng) for _ in range(200)]
-    assert all(second - first > 1 for first, second in pairs)
-    assert {run for pair in pairs for run in pair} == set(range(BLOCKED + 2))
+def test_the_two_free_runs_of_a_day_are_apart(rows: list[Any]) -> None:
+    for row in (*rows, *SMALL.rows(2, seed=7)):
+        free = [number for number, run in enumerate(run for run in row.runs if run.day == 2) if run.condition == "free"]
+        assert free[1] - free[0] > 1
 
 
-def test_only_the_first_day_counts_as_free() -> None:
-    row = MartinetRow(0, made(1, 1, 3, condition="free", day=1).runs + made(2, 2, condition="free").runs)
-    assert row.counts("free") == {1: 2, 2: 0, 3: 1}
+def test_only_the_first_day_counts_as_free(rows: list[Any]) -> None:
+    first, second = made(rows, 1, 1, 3, condition="free", day=1), made(rows, 2, 2, condition="free")
+    row = type(first).of(0, [*first.runs, *second.runs])
+    assert row.counts["free"] == {1: 2, 2: 0, 3: 1}
 
 
-def test_shares_and_preferences() -> None:
-    result = MartinetResult((made(2, 2, 2, 3), made(2, 2, 3, None)), 2)
-    share = result.share("A closed", 2)
-    assert share is not None
+def test_shares_and_preferences(rows: list[Any]) -> None:
+    found = SMALL.summarise([made(rows, 2, 2, 2, 3), made(rows, 2, 2, 3, None)])
+    summary = found.json["summary"]
+    share = summary["shares"]["A closed"][2]
     assert share.value == pytest.approx(5 / 7)
     assert share.low == pytest.approx(2 / 3)
-    assert result.share("B closed", 3) is None
-    by_condition = {(part.condition, part.more): part for part in result.preferences()}
-    preferred = by_condition["A closed", 2]
-    assert preferred.difference is not None
-    assert preferred.difference.value == pytest.approx(3 / 7)
-    assert preferred.p_value == pytest.approx(0.25)  # both of two agents
-    assert by_condition["B closed", 3].p_value == 1.0
-    assert MartinetResult((made(2),), 2).preferences()[2].p_value is None
+    assert summary["shares"]["B closed"][3] is None
+    preferred = {(part["condition"], part["more"]): part for part in summary["preferences"]}
+    assert preferred["A closed", 2]["difference"].value == pytest.approx(3 / 7)
+    assert preferred["A closed", 2]["p_value"] == pytest.approx(0.25)  # both of two agents
+    assert preferred["B closed", 3]["p_value"] == 1.0
+    assert SMALL.summarise([made(rows, 2)]).json["summary"]["preferences"][2]["p_value"] is None
+    texts = {text.get_text() for ax in found.figures["martinet_routes"]().axes for text in ax.texts}
+    assert {"71%", "29%", "2 > 3, p < 1"} <= texts
 
 
-def test_json_lines_and_figure(result: MartinetResult) -> None:
-    report = result.to_dict()
-    assert json.loads(json.dumps(report, allow_nan=False)) == report
-    assert report["summary"]["runs"] == 12 + 12 + 7
-    assert len(martinet_lines(result)) == 9
-    assert set(martinet_figures(result)) == {"martinet_routes"}
+def test_what_is_left(tmp_path: Path) -> None:
+    outcome = run_study(SMALL, tmp_path, Asked(runs=1))
+    report = json.loads((tmp_path / "martinet.json").read_text())
+    assert (report["summary"]["runs"], report["protocol"]["days"]) == (12 + 12 + 7, 2)
+    assert len(outcome.lines) == 9
+    reached = report["summary"]["reached"]
+    assert outcome.failed == ([f"goal reached in {reached} of 31 runs"] if reached < 31 else [])
 
 
-@pytest.mark.parametrize("wrong", [{"agents": 0}, {"agents": 1, "days": 0}, {"agents": 1, "seed": -1}])
-def test_bad_numbers_are_refused_in_one_line(wrong: dict[str, int]) -> None:
-    with pytest.raises(CogmapError) as error:
-        martinet_study(**wrong)
-    assert "\n" not in str(error.value)
+def test_no_day_is_refused() -> None:
+    with pytest.raises(CogmapError, match="martinet: days is 0"):
+        replace(STUDY, days=0)
 
 
 @pytest.mark.study
 def test_the_order_of_the_routes(study: bool) -> None:
     with workers(jobs=2) as executor:
-        result = martinet_study(agents=40 if study else 2, days=7 if study else 2, executor=executor)
-    for part in result.preferences():
-        assert part.difference is not None
-        assert part.p_value is not None
-        assert part.difference.low > 0.0
-        assert part.p_value < (1e-4 if study else 0.3)  # of two agents it cannot be below 1/4
+        rows = replace(STUDY, days=7 if study else 2).rows(40 if study else 2, executor=executor)
+    for part in STUDY.summarise(rows).json["summary"]["preferences"]:
+        assert part["difference"].low > 0.0
+        assert part["p_value"] < (1e-4 if study else 0.3)  # of two agents it cannot be below 1/4

@@ -79,7 +79,8 @@ def plot_belief_bars(
     if most < 1:
         raise CogmapError(f"plot_belief_bars: most is {most}; use 1 or more")
     shares = _checked("plot_belief_bars", belief)
-    bars = {_name(place, map_): q for place, q in list(shares.items())[:most]}
+    lies = {place: map_.position(place) if map_ else None for place in list(shares)[:most]}
+    bars = {f"place {place}" + (f" at {tuple(at)}" if at else ""): shares[place] for place, at in lies.items()}
     if len(shares) > most:
         bars[f"{len(shares) - most} more"] = sum(list(shares.values())[most:])
     ax = axes_or_new(size=(6.0, 1.2 + 0.32 * len(bars)), **where)
@@ -117,8 +118,8 @@ def plot_belief_map(
     picture = MapPicture.of(map_)
     lost = sum(q for place, q in shares.items() if map_.position(place) is None and place not in picture.cells)
     ax = axes_or_new(**where)
-    notes = [f"{_percent(lost)} of the belief among them"] if lost else []
-    cells = draw_map(ax, picture, *underlay(chart, start), notes=notes, margin=0.35).cells
+    note = f"{_percent(lost)} of the belief among them" if lost else ""
+    cells = draw_map(ax, picture, underlay(chart, start), note=note, margin=0.35).cells
     theme, box = theme_of(ax), (0.56, 0.24)
     for place, q in shares.items():
         if place in cells:
@@ -137,12 +138,6 @@ def _checked(who: str, belief: Belief | Mapping[Any, float]) -> dict[Any, float]
     if not len(values) or not ((values >= 0.0) & (values <= 1.0 + 1e-9)).all():
         raise CogmapError(f"{who}: give a probability from 0 to 1 for each of one or more places")
     return dict(sorted(places.items(), key=lambda item: -item[1]))
-
-
-def _name(place: int, map_: CognitiveMap | None) -> str:
-    """What a place is called: its number and, if the map says so, its position."""
-    position = None if map_ is None else map_.position(place)
-    return f"place {place}" if position is None else f"place {place} at {tuple(position)}"
 
 
 def _percent(q: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import replace
 
 import numpy as np
@@ -56,11 +57,12 @@ def explain(agent: Agent, *, most: int = 5) -> Explanation:
 
 
 def _believed(agent: Agent, place: int, probability: float) -> BelievedPlace:
-    map_ = agent.map
-    keys, p, _ = map_.A_o.mean(np.array([place]))
-    best = int(keys[0, p[0].argmax()])
-    sight = map_.sights[best] if map_.visited[place] and best >= 0 else None
-    return BelievedPlace(place, map_.position(place), sight, probability)
+    map_, senses = agent.map, dict[str, Hashable]()
+    for sensor in map_.sights_sensed if map_.visited[place] else ():
+        keys, p, _ = sensor.table.mean(np.array([place]))
+        if (best := int(keys[0, p[0].argmax()])) >= 0:
+            senses[sensor.name] = sensor.labels[best]
+    return BelievedPlace(place, map_.position(place), senses, probability)
 
 
 def _weighed(plan: Plan, policy: int) -> WeighedPolicy:

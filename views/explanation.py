@@ -18,13 +18,19 @@ class BelievedPlace:
 
     place: int
     position: tuple[int, ...] | None  # relative to the start
-    sight: Hashable  # label of its most probable sight; None where it was never visited
+    senses: dict[str, Hashable]  # the most probable label of each sensor; empty where it was never visited
     probability: float  # Q(s)
+
+    @property
+    def sight(self) -> Hashable:
+        """The most probable label of the first sensor, or None."""
+        return next(iter(self.senses.values()), None)
 
     def __str__(self) -> str:
         at = "" if self.position is None else f" at {self.position}"
-        looks = "" if self.sight is None else f", which looks like {shown(self.sight)}"
-        return f"place {self.place}{at}{looks}"
+        several = ", ".join(f"{sensor} is {shown(label)}" for sensor, label in self.senses.items())
+        looks = f", where {several}" if len(self.senses) > 1 else f", which looks like {shown(self.sight)}"
+        return f"place {self.place}{at}{looks if self.senses else ''}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,11 +133,13 @@ class Explanation:
         Raises:
             CogmapError: a label cannot be written as JSON.
         """
-        values, told = asdict(replace(self, terms=())), ("name", "label", "sign", "kind")
-        values["terms"] = [{name: getattr(term, name) for name in told} for term in self.terms]
+        values, of_term = asdict(replace(self, terms=())), ("name", "label", "sign", "kind")
+        values["terms"] = [{name: getattr(term, name) for name in of_term} for term in self.terms]
         json = partial(encode, where="explain")
         values["sights"] = [[json(plain(label)), value] for label, value in self.sights]
-        values["belief"] = [{**asdict(place), "sight": json(plain(place.sight))} for place in self.belief]
+        for place, told in zip(self.belief, values["belief"], strict=True):
+            told["senses"] = {sensor: json(plain(label)) for sensor, label in place.senses.items()}
+            told["sight"] = json(plain(place.sight))
         return values
 
     def _head(self) -> list[str]:

@@ -49,7 +49,7 @@ class GrowthFrames:
 
     def __init__(self, *, chart: Chart | None = None, start: Any = (0, 0)) -> None:
         self.frames: list[GrowthFrame] = []
-        self._world, self._origin = underlay(chart, start)
+        self._beneath = underlay(chart, start)
         self._map: MapPicture | None = None
         self._logged = 0
         self._cells: set[Cell] = set()  # where there is a place in any of the frames
@@ -68,7 +68,7 @@ class GrowthFrames:
         self._map = self._map or MapPicture(agent.map.motions, agent.map.sights)
         self.frames.append(GrowthFrame(agent.steps - 1, self._map.update(agent.map), place, news))
         if self._map.located:
-            self._cells.update(self._map.drawn(self._origin).cells.values())
+            self._cells.update(self._map.drawn(self._beneath[1]).cells.values())
 
     def maps(self) -> Iterator[MapPicture]:
         """The map at each frame: always the same object, changed in place."""
@@ -96,7 +96,7 @@ class GrowthFrames:
             raise CogmapError(f"growth frames: there is no frame {index}; there are {len(self)}, call add(agent) first")
         frame, picture = self.frames[index], next(islice(self.maps(), index % len(self), None))
         ax = axes_or_new(ax=ax, size=(6.0, 6.0))
-        cells = draw_map(ax, picture, self._world, self._origin, room=self._cells).cells
+        cells = draw_map(ax, picture, self._beneath, room=self._cells).cells
         if frame.place in cells:
             (row, column), colour = cells[frame.place], theme_of(ax).line(VERMILION)
             ax.add_artist(Circle((column, row), HERE, fill=False, edgecolor=colour, linewidth=2.5, zorder=4))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Unpack
 
 from ..model import CogmapError, CognitiveMap
@@ -15,6 +15,8 @@ from .world_plot import as_place, world_picture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+Beneath = tuple[Picture | None, Cell]
 
 
 def plot_map(map_: CognitiveMap, *, chart: Chart | None = None, start: Any = (0, 0), **where: Unpack[Where]) -> Axes:
@@ -29,11 +31,11 @@ def plot_map(map_: CognitiveMap, *, chart: Chart | None = None, start: Any = (0,
         CogmapError: positions of more than two dimensions, or `start` is no place of the chart.
     """
     ax = axes_or_new(**where)
-    draw_map(ax, MapPicture.of(map_), *underlay(chart, start))
+    draw_map(ax, MapPicture.of(map_), underlay(chart, start))
     return ax
 
 
-def underlay(chart: Chart | None, start: Any) -> tuple[Picture | None, Cell]:
+def underlay(chart: Chart | None, start: Any) -> Beneath:
     """The picture of the true map, if there is one, and the cell that the agent takes as its origin.
 
     Raises:
@@ -48,19 +50,13 @@ def underlay(chart: Chart | None, start: Any) -> tuple[Picture | None, Cell]:
 
 
 def draw_map(
-    ax: Axes,
-    map_: MapPicture,
-    world: Picture | None,
-    origin: Cell,
-    *,
-    notes: Sequence[str] = (),
-    room: Iterable[Cell] = (),
-    margin: float = 0.15,
+    ax: Axes, map_: MapPicture, beneath: Beneath, *, note: str = "", room: Iterable[Cell] = (), margin: float = 0.15
 ) -> Picture:
-    """Draw a map, over the true one where it is given, with notes under it, and return what was drawn of it.
+    """Draw a map, over the true one where it is given, with a note under it, and return what was drawn of it.
 
     `room` are cells that are left room for, whether there is a place or not.
     """
+    world, origin = beneath
     picture = map_.drawn(origin)
     cells = [*picture.cells.values(), *(world.cells.values() if world else ()), *room]
     as_grid(ax, cells or [(0.0, 0.0)], margin=margin)
@@ -68,8 +64,7 @@ def draw_map(
         draw_picture(ax, world, thick=0.04, faint=True)
     draw_picture(ax, picture)
     if lost := len(map_.places) - len(picture.cells):
-        notes = (f"{lost} place{'s' if lost > 1 else ''} without a position", *notes)
-    if notes:
-        shade = theme_of(ax).shade(0.8)
-        ax.text(0.5, -0.02, "\n".join(notes), transform=ax.transAxes, ha="center", va="top", color=shade)
+        note = f"{lost} place{'s' if lost > 1 else ''} without a position\n{note}".strip()
+    if note:
+        ax.text(0.5, -0.02, note, transform=ax.transAxes, ha="center", va="top", color=theme_of(ax).shade(0.8))
     return picture

@@ -96,7 +96,7 @@ def _draw_room(ax: Axes, cell: Cell, text: str, look: dict[str, Any]) -> None:
     from matplotlib.patheffects import withStroke
 
     (row, column), floor, wide = cell, look["facecolor"], min(1.5, cell_points(ax) / 20)
-    edge: dict[str, Any] = {} if "hatch" in look else {"edgecolor": theme_of(ax).paper}
+    edge: dict[str, Any] = {"zorder": 1.1} if "hatch" in look else {"edgecolor": theme_of(ax).paper}
     ax.add_artist(Rectangle((column - 0.5, row - 0.5), 1, 1, **(look | edge), linewidth=wide))
     if text:
         style: dict[str, Any] = {"color": ink_on(floor), "ha": "left", "va": "top", "zorder": 5}

@@ -10,9 +10,9 @@ from typing import Any
 from ..agent import Agent, StepRecord
 from ..model import CogmapError, decode, encode, plain
 from ..worlds import Chart, Place
-from . import recording_file
 from .map_picture import KNOWN, MapPicture
 from .recording_check import check
+from .recording_file import FORMAT, SCHEMA, read, upgraded, write
 from .recording_frames import NUMBERS, WindowWatch, plan_frame, term_json, world_json
 from .world_plot import as_place, world_picture
 
@@ -33,9 +33,9 @@ class Recording:
         Raises:
             CogmapError: no such file, no recording, truncated, damaged, or of another schema.
         """
-        data = recording_file.read(path)
+        data = read(path)
         try:
-            data = recording_file.upgraded(data)
+            data = upgraded(data)
             check(data)
         except (AttributeError, LookupError, TypeError, ValueError) as error:
             why = f"{type(error).__name__}: {error}"
@@ -48,7 +48,7 @@ class Recording:
         Raises:
             CogmapError: it cannot be written.
         """
-        recording_file.write(self.data, path)
+        write(self.data, path)
 
     @property
     def frames(self) -> list[dict[str, Any]]:
@@ -158,8 +158,8 @@ class Recorder:
         map_, motions = self._agent.map, self._agent.map.motions
         vectors = [list(vector) for vector in motions.displacements]
         data = {
-            "format": recording_file.FORMAT,
-            "schema": recording_file.SCHEMA,
+            "format": FORMAT,
+            "schema": SCHEMA,
             "title": self._title,
             "motions": {"names": list(motions.names), "displacements": vectors, "stay": motions.stay},
             "settings": self._agent.settings.to_dict(),
@@ -186,7 +186,7 @@ def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
     return {
         "step": record.step,
         "seen": {sensor: encode(label) for sensor, label in record.sensed.items()},
-        "open": [int(is_open) for is_open in record.open],
+        **({"open": [int(is_open) for is_open in record.open]} if record.open else {}),
         "grown": [[event.kind, event.index, event.source, event.action] for event in grown],
         "retracted": record.retracted,
         "belief": places,

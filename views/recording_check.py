@@ -70,12 +70,11 @@ def _frame(data: dict[str, Any], frame: dict[str, Any], places: int) -> Shape:
         "places": [(place, _or_none([_number]), _any, _or_none(_below(len(data["sights"]))), _number)],
         "ways": [_way(place, action, _below(len(data["known"])))],
     }
-    optional = {"at": at, "closed_rooms": [at], "closed_doors": [(at, at)]}
+    optional = {"open": (_below(2),) * actions, "at": at, "closed_rooms": [at], "closed_doors": [(at, at)]}
     return {
         **dict.fromkeys(("step", "rest", *NUMBERS), _number),
         **{name: shape for name, shape in optional.items() if name in frame},
         "seen": dict.fromkeys(frame["seen"], _label),
-        "open": (_below(2),) * actions,
         "grown": [(_text, _any, _any, _any)],
         "retracted": _or_none(_whole),
         "certain": _flag,

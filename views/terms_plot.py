@@ -42,17 +42,27 @@ def plot_terms(plan: Plan, *, most: int = 8, **where: Unpack[Where]) -> Axes:
     shown = order[:most] if plan.chosen in order[:most] else [*order[: most - 1], plan.chosen]
     ax = axes_or_new(size=(8.0, 1.9 + 0.36 * len(shown)), **where)
     theme, rows = theme_of(ax), np.arange(len(shown))
+    look: dict[str, Any]
     ends = {-1.0: np.zeros(len(shown)), 1.0: np.zeros(len(shown))}  # bars stand side by side from zero
     for number, term in enumerate(energy.terms):
         values = term.sign * energy[term.name][shown]
         if np.abs(values).max() > NOTHING:
             left = np.where(values < 0.0, ends[-1.0], ends[1.0])
-            look: dict[str, Any] = {"color": term.colour, "hatch": _HATCHES[number % len(_HATCHES)]}
+            look = {"color": term.colour, "hatch": _HATCHES[number % len(_HATCHES)]}
             look |= {"edgecolor": theme.paper, "linewidth": 0.6, "height": 0.7}
             ax.barh(rows, values, left=left, label=signed_label(term), **look)
             ends[-1.0] += np.minimum(values, 0.0)
             ends[1.0] += np.maximum(values, 0.0)
-    _draw_sums(ax, energy.G[shown].tolist(), theme)
+    look = {"s": 42, "marker": "D", "color": theme.ink, "edgecolors": theme.paper, "zorder": 4}
+    ax.scatter(energy.G[shown], rows, label="G", **look)
+    ax.axvline(0.0, color=theme.ink, linewidth=0.8)
+    low, high = ax.get_xlim()
+    high = max(high, 0.05 * (high - low))
+    ax.set_xlim(low - 0.02 * (high - low), high + 0.16 * (high - low))
+    look = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "size": "small", "color": theme.ink}
+    for row, value in enumerate(energy.G[shown].tolist()):
+        number = f"{value:.2f}" if abs(value) >= 0.1 or not value else f"{value:.1e}"
+        ax.text(0.99, row, number.replace("-", "−"), **look)
     ax.set_yticks(rows, [("▶ " if i == plan.chosen else "") + _name(plan, i) for i in shown], parse_math=False)
     ax.get_yticklabels()[shown.index(plan.chosen)].set_fontweight("bold")
     ax.set_ylim(len(shown) - 0.4, -0.6)
@@ -79,16 +89,3 @@ def _name(plan: Plan, policy: int) -> str:
     runs = [(name, len(list(group))) for name, group in groupby(names)]
     text = ", ".join(name if count == 1 else f"{count} {name}" for name, count in runs)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
-
-
-def _draw_sums(ax: Axes, G: list[float], theme: Theme) -> None:
-    look: dict[str, Any] = {"s": 42, "marker": "D", "color": theme.ink, "edgecolors": theme.paper, "zorder": 4}
-    ax.scatter(G, range(len(G)), label="G", **look)
-    ax.axvline(0.0, color=theme.ink, linewidth=0.8)
-    low, high = ax.get_xlim()
-    high = max(high, 0.05 * (high - low))
-    ax.set_xlim(low - 0.02 * (high - low), high + 0.16 * (high - low))
-    at: dict[str, Any] = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "size": "small"}
-    for row, value in enumerate(G):
-        number = f"{value:.2f}" if abs(value) >= 0.1 or not value else f"{value:.1e}"
-        ax.text(0.99, row, number.replace("-", "−"), color=theme.ink, **at)

@@ -13,8 +13,7 @@ if TYPE_CHECKING:
 
 RGB = tuple[float, float, float]
 
-BLACK: RGB = (0.0, 0.0, 0.0)
-WHITE: RGB = (1.0, 1.0, 1.0)
+BLACK, WHITE = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 READABLE = 4.5  # contrast that text needs; lines need 3
 
 

@@ -14,7 +14,8 @@ from .progress import counting, progress
 
 if TYPE_CHECKING:
     from ...worlds import Chart
-    from .. import Moment, Parts, Walk
+    from .. import Moment, Parts
+    from ..exploring import Walk
 
 MaxSteps = Annotated[int | None, typer.Option(min=1, help="Give up after so many; 50 a room + 50 unless given.")]
 Growth = Annotated[

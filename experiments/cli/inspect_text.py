@@ -42,12 +42,7 @@ TRANSITIONS: Columns = {
     ">count": lambda row: f"{row['count']:g}",
     "known": itemgetter("known"),
 }
-WAYS: Columns = {
-    "action": itemgetter("action"),
-    "door": itemgetter("door"),
-    "known": itemgetter("known"),
-    "leads to": _leads,
-}
+WAYS: Columns = {**{name: itemgetter(name) for name in ("action", "door", "known")}, "leads to": _leads}
 GROWTH: Columns = {
     ">step": itemgetter("step"),
     "kind": itemgetter("kind"),

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-World = Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, or a maze text file.")]
+World = Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, or a maze or graph file.")]
 Agent = Annotated[
     str,
     typer.Option(metavar="NAME", help="cogmap, frontier, random, cscg, cscg_pose, cscg_random or cscg_pose_random."),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,9 +12,7 @@ from .options import Dask, Jobs, Seed
 from .progress import counting
 
 if TYPE_CHECKING:
-    from ..ledger import Ledger
-    from ..studies.everything import Asked, Outcome
-    from ..studies.frame import Study
+    from ..studies import Outcome
 
 Name = Annotated[
     str,
@@ -57,70 +53,30 @@ def study_command(
 
     exploration, rooms and growth keep every finished run in DIR/cells.jsonl: the same command goes on from there.
     """
-    from ..studies.everything import Asked
-    from ..studies.frame import EVERYTHING, STUDIES, study_named
-    from ..studies.saving import check_folder
+    from .. import workers
+    from ..studies import EVERYTHING, Asked, run_studies, run_study, study_named
+    from .group import INTERRUPTED, fail
 
+    study = None if name == EVERYTHING else study_named(name)
     folder, asked = out or Path(f"study-{name}"), Asked(runs, seed, look_ahead)
-    if name == EVERYTHING:
-        check_folder(folder, "index")
-        for study in STUDIES.values():
-            study.settings(look_ahead)
-            check_folder(folder / study.name, study.name)
-        _all(folder, asked, jobs, dask)
-        return
-    study = study_named(name)
-    study.settings(look_ahead)
-    check_folder(folder, name)
-    _one(study, folder, asked, jobs, dask)
-
-
-def _one(study: Study, folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
-    from ..pool import workers
-    from ..studies.everything import run_study
-
-    with workers(jobs=jobs, dask=dask) as executor, _kept(study, folder, asked) as ledger:
-        outcome = run_study(study, folder, asked, counter=counting, executor=executor, ledger=ledger)
-    _show(outcome)
-
-
-def _all(folder: Path, asked: Asked, jobs: int, dask: str | None) -> None:
-    from ..pool import workers
-    from ..studies.everything import try_study, write_index
-    from ..studies.frame import STUDIES
-
-    outcomes: list[Outcome] = []
-    keeper = next((study for study in STUDIES.values() if study.keeps_cells), None)
-    with workers(jobs=jobs, dask=dask) as executor, _kept(keeper, folder, asked) as ledger:
-        for study in STUDIES.values():
-            below = folder / study.name
-            outcomes.append(try_study(study, below, asked, counter=counting, executor=executor, ledger=ledger))
-            _show(outcomes[-1])
-    say(*(f"written: {path}" for path in write_index(folder, outcomes, asked)))
+    try:
+        with workers(jobs=jobs, dask=dask) as executor:
+            if study is not None:
+                _show(run_study(study, folder, asked, executor=executor, counter=counting))
+                return
+            outcomes, written = run_studies(folder, asked, executor=executor, counter=counting, on_outcome=_show)
+    except KeyboardInterrupt as stop:
+        if not stop.args:
+            raise
+        again = "the same command goes on from there"
+        fail(f"interrupted; the finished runs are kept in {stop.args[0]}; {again}", code=INTERRUPTED)
+    say(*(f"written: {path}" for path in written))
     if any(outcome.failure for outcome in outcomes):
         raise typer.Exit(SOME_FAILED)
 
 
 def _show(outcome: Outcome) -> None:
-
-    if outcome.failure is None:
-        say(*outcome.lines, *(f"written: {path}" for path in outcome.written), title=outcome.study.name)
-    else:
+    if outcome.failure:
         say(f"{outcome.study.name} failed: {outcome.failure}", style="bold red")
-
-
-@contextmanager
-def _kept(study: Study | None, folder: Path, asked: Asked) -> Generator[Ledger | None]:
-    """The ledger in the folder, if the study keeps one; on Ctrl-C it is said where the finished runs are."""
-    from ..studies.grid import ledger_in
-    from .group import INTERRUPTED, fail
-
-    if study is None or not study.keeps_cells:
-        yield None
-        return
-    with ledger_in(folder, study.settings(asked.look_ahead)) as ledger:
-        try:
-            yield ledger
-        except KeyboardInterrupt:
-            again = "the same command goes on from there"
-            fail(f"interrupted; the finished runs are kept in {ledger.path}; {again}", code=INTERRUPTED)
+    else:
+        say(*outcome.lines, *(f"written: {path}" for path in outcome.written), title=outcome.study.name)

@@ -88,25 +88,22 @@ def _cell(maze: Maze, room: Place, first: dict[Place, int], width: int, line: in
 
 
 def _path(chart: Chart, path: Sequence[Place], *, unicode: bool) -> Text:
-    moves = [_move(chart, a, b) for a, b in pairwise(path[: MOST_MOVES + 1])]
-    signs = "".join(_ARROWS.get(move, move) if unicode else move[0] for move in moves)
+    def sign(a: Place, b: Place) -> str:
+        move = "stay" if a == b else next(str(way) for way, place in chart.successors(a).items() if place == b)
+        return _ARROWS.get(move, f"{move} ") if unicode else move[0]
+
+    signs = "".join(sign(a, b) for a, b in pairwise(path[: MOST_MOVES + 1]))
     more = f" and {len(path) - 1 - MOST_MOVES} more" if len(path) - 1 > MOST_MOVES else ""
     return Text(f"path from {path[0]}: {signs or 'none'}{more}", overflow="fold")
-
-
-def _move(chart: Chart, a: Place, b: Place) -> str:
-    return "stay" if a == b else next(str(way) for way, place in chart.successors(a).items() if place == b)
 
 
 def _learned(walk: Walk, agent: Agent) -> dict[str, str]:
     map_, ways = agent.map, ways_known(agent.map)
     places = f"{count(len(map_.places), 'place')} ({int(map_.visited.sum())} visited)"
-    known = (
-        f"{ways['walked']} walked, {ways['imagined']} imagined, {ways['refuted']} blocked, {ways['unknown']} unknown"
-    )
+    known = (f"{number} {'blocked' if name == 'refuted' else name}" for name, number in ways.items())
     return {
         "map": f"{places}, {count(len(map_.sights), 'sight')}",
-        "transitions": known,
+        "transitions": ", ".join(known),
         "least believed transition": f"{walk.truth.least(map_):.3f} (learned from {BELIEVED})",
     }
 

@@ -2,82 +2,142 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import Executor
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from ...agent import Agent, Settings
-from ...worlds import Maze, Position, shortest_path
-from ..pool import map_seeds
-from ..records import mean
-from ..session import Session, explored
-from .donut_rows import CLOSED, CORNER, DOORS, GOAL, GOAL_ROOM, MAZE, DonutRow, DonutStep
-from .imagined import imagined_paths
+from ...agent import Settings
+from ...views import BLUE, VERMILION
+from ...worlds import MAZES, Label, Position, shortest_path
+from .. import Moment, Session, explored, mean, number
+from .figures import Axes, Figure, ImaginedPath, Look, draw_room, imagined_paths, panels, plot_ways
+from .study import Findings, Study, failed_seeds
 
-WEIGHT = 1.0
-"""Log preference of the goal, in nats: as much weight on exploiting as on exploring."""
-MOST = 40
-"""Moves after which the agent has not found the goal."""
-SETTINGS = Settings(look_ahead=12)
-"""From the closed room the way round is 9 moves and a `stay`; 12 leaves some to spare."""
+MAZE = MAZES["donut"]
+CORNER: Position = (0, 0)
+GOAL_ROOM: Position = (2, 4)
+GOAL: Label = MAZE.sights[GOAL_ROOM]
+CLOSED: Position = (0, 2)
+DOORS: dict[str, tuple[Position, str]] = {"from the left": ((0, 1), "right"), "from the right": ((0, 3), "left")}
+"""The doors of the closed room: from where, and the action that leads in."""
+DETOUR = len(shortest_path(MAZE, (0, 1), GOAL_ROOM, closed=[CLOSED]))
+"""Moves of who meets the closed room one room from the corner, turns back, and takes the shortest way round."""
+WEIGHT = 1.0  # log preference of the goal, in nats: as much weight on exploiting as on exploring
+MOST = 40  # moves after which the agent has not found the goal
+FRAMES, ACROSS = 11, 4
 
 
 @dataclass(frozen=True, slots=True)
-class DonutResult:
-    """All agents, in the order of their seeds."""
+class DonutStep:
+    """One observation after the move."""
 
-    rows: tuple[DonutRow, ...]
-
-    def to_dict(self) -> dict[str, Any]:
-        """World, protocol, rows and summary as plain JSON values."""
-        protocol = {"moved_to": list(CORNER), "goal": GOAL, "weight": WEIGHT, "closed": list(CLOSED), "max_moves": MOST}
-        rows = [row.to_dict() for row in self.rows]
-        return {"world": MAZE.name, "protocol": protocol, "rows": rows, "summary": self.summary()}
-
-    def summary(self) -> dict[str, Any]:
-        """Counts over the agents, and the mean moves of those that reached the goal."""
-        moves = [row.moves for row in self.rows if row.moves is not None]
-        return {
-            "agents": len(self.rows),
-            "explored": sum(row.steps_to_explore is not None for row in self.rows),
-            "met_closed_room": sum(row.met for row in self.rows),
-            "reached": len(moves),
-            "detour": detour(),
-            "in_detour": moves.count(detour()),
-            "mean_moves": mean(moves),
-            "second_tries": sum(row.second_tries for row in self.rows),
-            "bumps": sum(row.bumps for row in self.rows),
-        }
+    room: Position  # where the agent is
+    action: str  # what it chose
+    probability: float  # P(policy) of the chosen one
+    first_action: dict[str, float]  # P(first action)
+    paths: tuple[ImaginedPath, ...]  # what the policies imagine, the most probable path first
+    way_open: dict[str, float]  # P(way open) of each of `DOORS`, after this observation
 
 
-def donut_study(
-    *,
-    agents: int,
-    seed: int = 0,
-    settings: Settings | None = None,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-) -> DonutResult:
-    """Let each agent explore, close a room on its way to the goal, move it to the corner without a word, and watch.
+@dataclass(frozen=True, slots=True)
+class DonutRow:
+    """One agent."""
 
-    Agent i has the seed `seed` + i.
+    seed: int
+    start: Position  # the room where it began to explore
+    steps_to_explore: int | None  # None where it gave up, and was not moved
+    reached: bool  # whether it chose to stay at the goal
+    moves: int | None  # until then
+    met_closed_room: bool  # whether it came to a door of the closed room
+    second_tries: int  # how often it took the closed way again from the corner, or bumped
+    bumps: int  # how often it tried to enter the closed room
+    path: tuple[Position, ...]  # from the corner on
+    steps: tuple[DonutStep, ...]  # after the move
 
-    Raises:
-        CogmapError: `agents` below 1, or a negative seed.
+    @classmethod
+    def of(cls, seed: int, start: Position, explored: int | None, steps: Sequence[DonutStep]) -> DonutRow:
+        """What these steps come to."""
+        path = tuple(step.room for step in steps)
+        reached = bool(steps) and (path[-1], steps[-1].action) == (GOAL_ROOM, "stay")
+        bumps = sum((step.room, step.action) in DOORS.values() for step in steps)
+        again = sum(way == (CORNER, DOORS["from the left"][0]) for way in pairwise(path)) - 1
+        met, moves = any(room in path for room, _ in DOORS.values()), len(steps) - 1 if reached else None
+        return cls(seed, start, explored, reached, moves, met, max(again, 0) + bumps, bumps, path, tuple(steps))
+
+
+class Donut(Study[int, DonutRow]):
+    """A way that was closed
+
+    On its way round the donut the agent meets a room that has been closed since it explored. Does it turn
+    back at once and take the long way round?
     """
-    one = partial(_agent, settings or SETTINGS)
-    return DonutResult(tuple(map_seeds(one, runs=agents, seed=seed, executor=executor, on_done=on_done)))
+
+    name = "donut"
+    notes = ("The paper shows one agent; here every agent is counted, and one is drawn.",)
+    settings = Settings(look_ahead=12)  # from the closed room the way round is 9 moves and a `stay`
+
+    def run(self, task: int, settings: Settings) -> DonutRow:
+        """Let it explore, move it to the corner without a word, and watch it."""
+        session = explored("donut", MAZE, task, settings=settings)
+        steps: list[DonutStep] = []
+
+        def note(moment: Moment) -> bool:
+            steps.append(_step(session))
+            return (session.place, steps[-1].action) == (GOAL_ROOM, "stay")
+
+        if session.steps is not None:
+            session.world.displace(CORNER)
+            session.world.close_room(CLOSED)
+            session.agent.prefer({GOAL: WEIGHT})
+            session.run(MOST + 1, note)
+        return DonutRow.of(task, session.start, session.steps, steps)
+
+    def summarise(self, rows: Sequence[DonutRow]) -> Findings:
+        """Counts over the agents, and the frames of the first that explored."""
+        done = [row for row in rows if row.steps_to_explore is not None]
+        protocol = {"moved_to": CORNER, "goal": GOAL, "weight": WEIGHT, "closed": CLOSED, "max_moves": MOST}
+        summary = _summary(rows)
+        json = {"world": MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
+        figures = {"donut_frames": partial(_frames, done[0])} if done else {}
+        failed = failed_seeds("did not explore the maze", rows, lambda row: row.steps_to_explore is None)
+        failed += failed_seeds("did not reach the goal", rows, lambda row: row in done and not row.reached)
+        return Findings(json, _lines(summary), figures, failed=failed)
 
 
-def donut_lines(result: DonutResult) -> list[str]:
-    """What the terminal shows."""
-    from ..text import number
+def _step(session: Session) -> DonutStep:
+    map_, plan = session.agent.map, session.agent.plan
+    names = map_.motions.names
+    doors = {name: (session.truth.place(map_, at), names.index(action)) for name, (at, action) in DOORS.items()}
+    return DonutStep(
+        room=session.place,
+        action=names[plan.action],
+        probability=float(plan.probability[plan.chosen]),
+        first_action=dict(zip(names, plan.action_probability.tolist(), strict=True)),
+        paths=imagined_paths(plan, map_, session.start),
+        way_open={name: float(1.0 - map_.blocked(np.array([at]))[0, way]) for name, (at, way) in doors.items()},
+    )
 
-    summary = result.summary()
+
+def _summary(rows: Sequence[DonutRow]) -> dict[str, Any]:
+    moves = [row.moves for row in rows if row.moves is not None]
+    return {
+        "agents": len(rows),
+        "explored": sum(row.steps_to_explore is not None for row in rows),
+        "met_closed_room": sum(row.met_closed_room for row in rows),
+        "reached": len(moves),
+        "detour": DETOUR,
+        "in_detour": moves.count(DETOUR),
+        "mean_moves": mean(moves),
+        "second_tries": sum(row.second_tries for row in rows),
+        "bumps": sum(row.bumps for row in rows),
+    }
+
+
+def _lines(summary: dict[str, Any]) -> list[str]:
     total = summary["agents"]
     return [
         f"{summary['explored']} of {total} agents explored {MAZE.name}; moved to {CORNER}, sight {GOAL} preferred, "
@@ -89,50 +149,28 @@ def donut_lines(result: DonutResult) -> list[str]:
     ]
 
 
-def detour() -> int:
-    """Moves of who meets the closed room, turns back, and takes the shortest way round."""
-    way_open = Maze(MAZE.name, {room: sight for room, sight in MAZE.sights.items() if room != CLOSED})
-    met = DOORS["from the left"][0]
-    return len(shortest_path(way_open, CORNER, met)) - 1 + len(shortest_path(way_open, met, GOAL_ROOM)) - 1
+def _frames(row: DonutRow) -> Figure:
+    count = min(len(row.steps), FRAMES)
+    shown, down = np.linspace(0, len(row.steps) - 1, count).round().astype(int), -(-(count + 1) // ACROSS)
+    legend = "Path so far (white), paths imagined (darker: more probable), the closed room (hatched), "
+    figure, axes = panels(f"{legend}the goal (red square)", (down, ACROSS), (14.0, 3.1 * down + 0.9))
+    for ax in axes[count:]:
+        ax.set_axis_off()
+    for ax, frame in zip(axes, shown.tolist(), strict=False):
+        step = row.steps[frame]
+        plot_ways(ax, MAZE, closed=CLOSED, imagined=step.paths, way=row.path[: frame + 1])
+        draw_room(ax, GOAL_ROOM, facecolor="none", edgecolor="red", linewidth=3.0, zorder=2.2)
+        ax.set_title(f"{frame + 1}) {step.action}, P = {step.first_action[step.action]:.2f}", fontsize=12)
+    _draw_way_open(axes[-1].inset_axes((0.12, 0.14, 0.86, 0.78)), row)  # its labels take no room from the frames
+    return figure
 
 
-def _agent(settings: Settings, seed: int) -> DonutRow:
-    session = explored("donut", MAZE, seed, settings=settings)
-    if session.steps is None:
-        return DonutRow(seed, session.start, None, (), False)
-    session.world.displace(CORNER)
-    session.world.close_room(CLOSED)
-    steps, reached = _walk(session)
-    return DonutRow(seed, session.start, session.steps, tuple(steps), reached)
-
-
-def _walk(session: Session) -> tuple[list[DonutStep], bool]:
-    agent, world = session.agent, session.world
-    agent.prefer({GOAL: WEIGHT})
-    steps: list[DonutStep] = []
-    while True:
-        observation = world.observe()
-        action = agent.step(observation)
-        steps.append(_step(agent, world.position, session.start))
-        at_goal = action == agent.map.motions.stay and observation["sight"] == GOAL
-        if at_goal or len(steps) > MOST:
-            return steps, at_goal
-        world.step(action)
-
-
-def _step(agent: Agent, room: Position, start: Position) -> DonutStep:
-    plan, names = agent.plan, agent.map.motions.names
-    return DonutStep(
-        room=room,
-        action=names[plan.action],
-        probability=float(plan.probability[plan.chosen]),
-        first_action=dict(zip(names, plan.action_probability.tolist(), strict=True)),
-        paths=imagined_paths(plan, agent.map, start),
-        way_open={name: _open(agent, at, action, start) for name, (at, action) in DOORS.items()},
-    )
-
-
-def _open(agent: Agent, at: Position, action: str, start: Position) -> float:
-    place = agent.map.place_at((at[0] - start[0], at[1] - start[1]))
-    assert place is not None  # it has explored the maze
-    return float(1.0 - agent.map.blocked(np.array([place]))[0, agent.map.motions.names.index(action)])
+def _draw_way_open(ax: Axes, row: DonutRow) -> None:
+    frames = range(1, len(row.steps) + 1)
+    looks: list[Look] = [{"color": BLUE, "marker": "o"}, {"color": VERMILION, "marker": "s", "linestyle": "--"}]
+    for name, look in zip(DOORS, looks, strict=True):
+        ax.plot(frames, [step.way_open[name] for step in row.steps], label=name, markersize=5, **look)
+    ax.set_ylim(-0.05, 1.05)
+    ax.set_xlabel("frame")
+    ax.set_title("P(way open) into the closed room", fontsize=12)
+    ax.legend(frameon=False, loc="center right")

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -11,183 +10,177 @@ from typing import Any
 import numpy as np
 
 from ...agent import Settings
-from ...model.errors import CogmapError
+from ...views import BLUE, GREEN, GREY, ORANGE, VERMILION, theme_of
 from ...worlds import MAZES, Label, Maze
-from ..navigating import WEIGHT, NavigateRun, navigate
-from ..pool import map_tasks
-from .goals_summary import Summary, summarise_goals
-from .intervals import Interval
+from .. import WEIGHT, NavigateRun, Record, navigate
+from .figures import Axes, Figure, Look, panels, plot_bars
+from .intervals import Interval, bootstrap
+from .study import Findings, Study
 
-DIFFER, REPEAT = "sights differ", "sights repeat"
-"""Mazes without and with rooms that look alike."""
+ALIASED = {False: "sights differ", True: "sights repeat"}  # mazes without and with rooms that look alike
+HOW = {True: "with a map, moved without a word", False: "in an unknown maze"}
+DISTANCES = {**{str(length): range(length, length + 1) for length in range(5)}, "5, 6": range(5, 7)}
+DISTANCES["7 or more"] = range(7, 10**9)  # lengths of the shortest path that are shown together
+MARKS = {
+    "shortest": ("_", "shortest path", 14.0, GREY),
+    "to_stand": ("o", "agent first there", 6.0, GREEN),
+    "frontier": ("D", "nearest-frontier search first there", 6.0, (1.0, 1.0, 1.0)),
+}
 
-Task = tuple[str, bool, int]
-"""World, whether its map is known, seed."""
+Task = tuple[str, bool, int]  # world, whether its map is known, seed
 
 
 @dataclass(frozen=True, slots=True)
-class GoalRun:
-    """One way to a goal.
-
-    Attributes:
-        world: name of the maze.
-        aliased: whether several of its rooms look alike.
-        goal: the label to go to, drawn by the seed.
-        known: whether the maze was explored before.
-        run: how it went.
-    """
+class GoalRun(Record):
+    """One way to a goal."""
 
     world: str
-    aliased: bool
-    goal: Label
-    known: bool
+    aliased: bool  # whether several rooms of the maze look alike
+    goal: Label  # to go to, drawn by the seed
+    known: bool  # whether the maze was explored before
     run: NavigateRun
 
-    def to_dict(self) -> dict[str, Any]:
-        """The run as plain JSON values."""
-        return {
-            "world": self.world,
-            "aliased": self.aliased,
-            "goal": self.goal,
-            "known": self.known,
-            **self.run.to_dict(),
-        }
 
+class Goals(Study[Task, GoalRun]):
+    """Steps to a goal
 
-@dataclass(frozen=True, slots=True)
-class GoalsResult:
-    """All runs of the study.
-
-    Attributes:
-        agents: runs in each maze, with a map and without.
-        seed: of the first run in each.
-        weight: log preference of the goal, in nats.
-        settings: of the agents.
-        runs: in the order of the mazes, those with a map first.
+    How many moves to a preferred sight, against the exact shortest path: with a map, after a move without a
+    word, and in an unknown maze, against nearest-frontier search?
     """
 
-    agents: int
-    seed: int
-    weight: float
-    settings: Settings
-    runs: tuple[GoalRun, ...]
+    name = "goals"
+    notes = (
+        "A goal is reached when the agent chooses to stay on it; passing through does not count.",
+        "The authors' agent is told that it was moved, its belief is reset; ours is not told.",
+    )
 
-    @property
-    def worlds(self) -> tuple[str, ...]:
-        """Names of the mazes, in order."""
-        return tuple(dict.fromkeys(row.world for row in self.runs))
+    def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Task]:
+        """Each maze with a map and without, with every seed, which draws start, goal and agent."""
+        return [(world, known, seed) for world in MAZES for known in (True, False) for seed in seeds]
 
-    def select(
-        self,
-        *,
-        known: bool,
-        world: str | None = None,
-        aliased: bool | None = None,
-        between: tuple[float, float] | None = None,
-    ) -> Summary:
-        """What the runs come to that fit; `between` bounds the length of the shortest path, ends included."""
-        least, most = between or (0.0, np.inf)
-        rows = [
-            row.run
-            for row in self.runs
-            if row.known == known
-            and world in (None, row.world)
-            and aliased in (None, row.aliased)
-            and (between is None or (row.run.shortest is not None and least <= row.run.shortest <= most))
-        ]
-        return summarise_goals(rows)
+    def run(self, task: Task, settings: Settings) -> GoalRun:
+        """One way to a goal."""
+        world, known, seed = task
+        maze = MAZES[world]
+        goal, aliased = draw_goal(maze, seed), len(set(maze.sights.values())) < len(maze.rooms)
+        return GoalRun(world, aliased, goal, known, navigate(maze, seed, goal=goal, known=known, settings=settings))
 
-    def to_dict(self) -> dict[str, Any]:
-        """Arguments, runs and a summary a maze, as plain JSON values."""
-        return {
-            "study": "goals",
-            "agents": self.agents,
-            "seed": self.seed,
-            "weight": self.weight,
-            "settings": self.settings.to_dict(),
-            "runs": [row.to_dict() for row in self.runs],
-            "summary": [
-                {"world": world, "known": known, **self.select(known=known, world=world).to_dict()}
-                for world in self.worlds
-                for known in (True, False)
-            ],
-        }
+    def summarise(self, rows: Sequence[GoalRun]) -> Findings:
+        """Means by maze and by distance."""
+        summary = {(world, known): summarised(rows, world=world, known=known) for world in MAZES for known in HOW}
+        by_world = [{"world": world, "known": known, **part} for (world, known), part in summary.items()]
+        lines, failed = _lines(rows, summary), list[str]()
+        for row in rows:
+            if not row.run.reached:
+                end, how = f"goal {row.goal}, seed {row.run.seed}", "with a map" if row.known else "without a map"
+                lines.append(f"failed: {row.world}, {'with a map' if row.known else 'unknown'}, {end}")
+                failed.append(f"{row.world}, {how}, {end}: not reached")
+        figures = {"goals_by_distance": partial(_by_distance, rows), "goals_by_world": partial(_by_world, summary)}
+        return Findings({"weight": WEIGHT, "runs": rows, "summary": by_world}, lines, figures, failed=failed)
 
 
-def goals_study(
-    *,
-    agents: int,
-    seed: int = 0,
-    settings: Settings | None = None,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-) -> GoalsResult:
-    """Send agents to goals in the eight mazes, each once with a map and once without.
+def summarised(rows: Sequence[GoalRun], **those: object) -> dict[str, Any]:
+    """What the rows come to whose fields are as in `those`.
 
-    Args:
-        agents: runs in each maze, with the seeds `seed`, `seed + 1`, ...
-        seed: of the first run; a run's seed draws start, goal and agent.
-        settings: of the agents.
-        executor: where the agents run, in this process if None; the result does not depend on it.
-        on_done: called after each of the `goals_tasks(agents)` runs.
-
-    Raises:
-        CogmapError: `agents` is below 1, or `seed` below 0.
+    Failed are those that never chose to stay on the goal, or never knew the maze; the other figures are of those that
+    reached it. The ratio is that of all steps to all shortest paths.
     """
-    if agents < 1:
-        raise CogmapError(f"goals: agents is {agents}; use 1 or more")
-    if seed < 0:
-        raise CogmapError(f"goals: seed is {seed}; use 0 or more")
-    tasks = [(world, known, seed + i) for world in MAZES for known in (True, False) for i in range(agents)]
-    runs = map_tasks(partial(_run, settings), tasks, executor=executor, on_done=on_done)
-    return GoalsResult(agents, seed, WEIGHT, settings or Settings(), tuple(runs))
-
-
-def goals_lines(result: GoalsResult) -> list[str]:
-    """Steps in every maze, with 95 % intervals; failed runs are named by their seeds."""
-    lines: list[str] = []
-    for known in (True, False):
-        title = "with a map, moved without a word" if known else "in an unknown maze"
-        heads = ("reached", "first there", "stays", *(() if known else ("nearest frontier",)), "shortest", "ratio")
-        lines += [f"{title}: steps, mean [95 %]", _columns("", heads)]
-        groups = {world: result.select(known=known, world=world) for world in result.worlds}
-        groups |= {DIFFER: result.select(known=known, aliased=False), REPEAT: result.select(known=known, aliased=True)}
-        lines += [_columns(name, _cells(summary, known)) for name, summary in groups.items()]
-    failed = [row for row in result.runs if not row.run.reached]
-    return lines + [
-        f"failed: {row.world}, {'with a map' if row.known else 'unknown'}, goal {row.goal}, seed {row.run.seed}"
-        for row in failed
-    ]
-
-
-def goals_tasks(agents: int) -> int:
-    """How many runs the study makes."""
-    return 2 * len(MAZES) * agents
+    every = [row.run for row in rows if all(getattr(row, name) == value for name, value in those.items())]
+    there = [run for run in every if run.reached]
+    steps, shortest = [run.steps or 0 for run in there], [run.shortest or 0 for run in there]
+    return {
+        "runs": len(every),
+        "failed": len(every) - len(there),
+        "steps": bootstrap(steps),
+        "to_stand": bootstrap([run.steps_to_stand or 0 for run in there]),
+        "shortest": bootstrap(shortest),
+        "frontier": bootstrap([run.frontier_steps for run in there if run.frontier_steps is not None]),
+        "ratio": bootstrap(steps, shortest),
+    }
 
 
 def draw_goal(maze: Maze, seed: int) -> Label:
     """One of the labels of the maze; start and agent of the same seed have streams of their own."""
     labels = sorted(set(maze.sights.values()), key=lambda label: (str(type(label)), label))
-    stream = np.random.SeedSequence(seed).spawn(4)[3]  # `draw_start` uses the first three
+    stream = np.random.SeedSequence(seed).spawn(4)[3]  # start, agent and moves have the first three
     return labels[int(np.random.default_rng(stream).integers(len(labels)))]
 
 
-def _run(settings: Settings | None, task: Task) -> GoalRun:
-    world, known, seed = task
-    maze = MAZES[world]
-    goal = draw_goal(maze, seed)
-    run = navigate(maze, goal=goal, known=known, settings=settings, seed=seed)
-    return GoalRun(world, len(set(maze.sights.values())) < len(maze.rooms), goal, known, run)
-
-
-def _cells(summary: Summary, known: bool) -> list[str]:
-    means = [summary.to_stand, summary.steps, *(() if known else (summary.frontier,)), summary.shortest, summary.ratio]
-    return [f"{summary.runs - summary.failed}/{summary.runs}", *(_text(mean) for mean in means)]
+def _lines(rows: Sequence[GoalRun], summary: dict[tuple[str, bool], dict[str, Any]]) -> list[str]:
+    """Steps in every maze, with 95 % intervals."""
+    lines: list[str] = []
+    for known, title in HOW.items():
+        heads = {"to_stand": "first there", "steps": "stays", "frontier": "nearest frontier", "shortest": "shortest"}
+        shown = {what: head for what, head in {**heads, "ratio": "ratio"}.items() if not known or what != "frontier"}
+        groups = {world: summary[world, known] for world in MAZES}
+        groups |= {name: summarised(rows, known=known, aliased=aliased) for aliased, name in ALIASED.items()}
+        cells = {"": ["reached", *shown.values()]}
+        for name, part in groups.items():
+            means = [_text(part[what]) for what in shown]
+            cells[name] = [f"{part['runs'] - part['failed']}/{part['runs']}", *means]
+        lines.append(f"{title}: steps, mean [95 %]")
+        lines += [f"  {name:<14}{x:>9}" + "".join(f"{y:>21}" for y in rest) for name, (x, *rest) in cells.items()]
+    return lines
 
 
 def _text(mean: Interval | None) -> str:
     return "-" if mean is None else f"{mean.value:.2f} [{mean.low:.2f}, {mean.high:.2f}]"
 
 
-def _columns(name: str, cells: Sequence[str]) -> str:
-    return f"  {name:<14}{cells[0]:>9}" + "".join(f"{cell:>21}" for cell in cells[1:])
+def _by_distance(rows: Sequence[GoalRun]) -> Figure:
+    title = "Steps to the goal, by the length of the shortest path (bars: mean, 95 % bootstrap)"
+    figure, axes = panels(title, (1, 2), (11.0, 4.6))
+    near = [[row for row in rows if row.run.shortest in distance] for distance in DISTANCES.values()]
+    for ax, known in zip(axes, HOW, strict=True):
+        marks = ("shortest",) if known else ("shortest", "to_stand", "frontier")
+        for shift, (aliased, name), colour in zip((-0.2, 0.2), ALIASED.items(), (BLUE, ORANGE), strict=True):
+            groups = [summarised(part, known=known, aliased=aliased) for part in near]
+            _draw_bars(ax, shift, groups, "steps", width=0.38, color=colour, label=name)
+            _draw_marks(ax, shift, groups, marks, named=not aliased)
+        ax.set_xticks(range(len(near)), list(DISTANCES))
+        ax.set_xlabel("steps of the shortest path")
+        _finish(ax, known)
+    return figure
+
+
+def _by_world(summary: dict[tuple[str, bool], dict[str, Any]]) -> Figure:
+    figure, axes = panels("Steps to the goal, by maze (bars: mean, 95 % bootstrap)", (1, 2), (11.0, 4.6))
+    stays, stands = ("steps", "agent stays", BLUE), ("to_stand", MARKS["to_stand"][1], GREEN)
+    series = {True: [stays], False: [stands, stays, ("frontier", MARKS["frontier"][1], GREY)]}
+    for ax, known in zip(axes, HOW, strict=True):
+        groups, width = [summary[world, known] for world in MAZES], 0.8 / max(len(series[known]), 2)
+        for number, (what, name, colour) in enumerate(series[known]):
+            shift = (number - (len(series[known]) - 1) / 2) * width
+            _draw_bars(ax, shift, groups, what, width=width * 0.95, color=colour, label=name)
+        _draw_marks(ax, 0.0, groups, ["shortest"])
+        ax.set_xticks(range(len(groups)), list(MAZES), rotation=30, ha="right")
+        _finish(ax, known)
+    return figure
+
+
+def _draw_bars(ax: Axes, shift: float, groups: Sequence[dict[str, Any]], what: str, **style: Any) -> None:
+    plot_bars(ax, [i + shift for i in range(len(groups))], [group[what] for group in groups], **style)
+
+
+def _draw_marks(
+    ax: Axes, shift: float, groups: Sequence[dict[str, Any]], marks: Sequence[str], *, named: bool = True
+) -> None:
+    """Marks over the bars, and how many failed."""
+    for what in marks:
+        marker, name, size, colour = MARKS[what]
+        values = [value.value if (value := group[what]) else np.nan for group in groups]
+        look: Look = {"marker": marker, "markersize": size, "markerfacecolor": colour, "linestyle": "none"}
+        look |= {"markeredgecolor": theme_of(ax).ink, "markeredgewidth": size / 7.0, "label": name if named else None}
+        ax.plot([i + shift for i in range(len(groups))], values, zorder=4, **look)
+    text: Look = {"textcoords": "offset points", "color": VERMILION, "fontsize": 7, "rotation": 90}
+    for i, group in enumerate(groups):
+        if group["failed"]:
+            top = group["steps"].high if group["steps"] else 0.0
+            ax.annotate(f"{group['failed']} of {group['runs']} failed", (i + shift, top), (0, 4), ha="center", **text)
+
+
+def _finish(ax: Axes, known: bool) -> None:
+    ax.set_title(HOW[known])
+    ax.set_ylabel("steps until the agent stays on the goal" if known else "steps")
+    ax.set_ylim(bottom=0.0)
+    ax.legend(fontsize=8, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3)

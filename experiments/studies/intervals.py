@@ -1,54 +1,85 @@
-"""How sure a mean is: bootstrap intervals (Efron 1979, Bootstrap methods: another look at the jackknife)."""
+"""How sure a figure is: 95 % intervals of means, of ratios of totals, and of shares."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
 
-RESAMPLES = 2000
 LEVEL = 0.95
+RESAMPLES = 2000
 
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """A mean, or a ratio of totals, and the percentile bootstrap interval that holds it at `LEVEL`.
-
-    Attributes:
-        value: of the runs as they were.
-        low: end of the interval.
-        high: the other end.
-        count: runs that it is from.
-    """
+    """A mean, or a ratio of totals, and its bootstrap interval."""
 
     value: float
-    low: float
-    high: float
+    low: float  # end of the interval
+    high: float  # the other end
+    count: int  # runs that it is from
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """A count out of a number, and Wilson's interval (1927) of its share."""
+
     count: int
+    of: int
+    low: float  # end of the interval
+    high: float  # the other end
+    share: float  # from 0 to 1; 0 out of none
 
-    def to_dict(self) -> dict[str, float]:
-        """The fields as plain JSON values."""
-        return asdict(self)
+    @property
+    def value(self) -> float:
+        """The share."""
+        return self.share
 
 
-def bootstrap(
-    values: Sequence[float], over: Sequence[float] | None = None, *, seed: int = 0, resamples: int = RESAMPLES
-) -> Interval | None:
-    """The mean of `values`, or their total over the total of `over`, run by run; None where that is 0 or of nothing.
+def bootstrap(values: Sequence[float], over: Sequence[float] | None = None) -> Interval | None:
+    """The mean of `values`, or their total over the total of `over`, with its percentile bootstrap interval.
 
     Args:
         values: one a run.
-        over: one a run; a resample in which all are 0 is left out.
-        seed: of the resampling.
-        resamples: drawn with replacement, each as large as `values`.
+        over: one a run, paired with `values`; a resample in which they add up to 0 is left out.
+
+    Returns:
+        None of no runs, and where `over` adds up to 0.
     """
-    top = np.asarray(values, dtype=np.float64)
-    bottom = np.ones_like(top) if over is None else np.asarray(over, dtype=np.float64)
-    if not bottom.sum():
+    over = [1.0] * len(values) if over is None else over
+    if not sum(over):
         return None
-    drawn = np.random.default_rng(seed).integers(len(top), size=(resamples, len(top)))
-    tops, bottoms = top[drawn].sum(axis=1), bottom[drawn].sum(axis=1)
-    ratios = tops[bottoms > 0.0] / bottoms[bottoms > 0.0]
-    low, high = np.quantile(ratios, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
-    return Interval(float(top.sum() / bottom.sum()), float(low), float(high), len(top))
+    value = float(sum(values) / sum(over))
+    if len(values) == 1:  # scipy wants two
+        return Interval(value, value, value, 1)
+    how: dict[str, Any] = {"paired": True, "vectorized": True, "n_resamples": RESAMPLES, "method": "percentile"}
+    with warnings.catch_warnings():  # of resamples that are left out
+        warnings.simplefilter("ignore", stats.DegenerateDataWarning)
+        drawn = stats.bootstrap((values, over), _ratio, rng=np.random.default_rng(0), **how).bootstrap_distribution
+    low, high = np.nanquantile(drawn, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
+    return Interval(value, float(low), float(high), len(values))
+
+
+def wilson(count: int, of: int) -> Share:
+    """The share of `count` out of `of`, single cases taken as independent; from 0 to 1 out of none."""
+    if of == 0:
+        return Share(count, of, 0.0, 1.0, 0.0)
+    ends, share = stats.binomtest(count, of).proportion_ci(LEVEL, method="wilson"), count / of
+    return Share(count, of, min(float(ends.low), share), max(float(ends.high), share), share)
+
+
+def total_variation(first: Sequence[int], second: Sequence[int]) -> float:
+    """Half the sum of the differences of the shares, from 0 (equal) to 1; 1 if either has no counts."""
+    if not (sum(first) and sum(second)):
+        return 1.0
+    return sum(abs(a / sum(first) - b / sum(second)) for a, b in zip(first, second, strict=True)) / 2.0
+
+
+def _ratio(values: NDArray[np.float64], over: NDArray[np.float64], axis: int = -1) -> NDArray[np.float64]:
+    top, bottom = np.sum(values, axis, dtype=float), np.sum(over, axis, dtype=float)
+    return np.divide(top, bottom, out=np.full_like(top, np.nan), where=bottom > 0.0)

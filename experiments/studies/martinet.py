@@ -6,105 +6,129 @@ network model, PLoS Comput. Biol. 7(5): e1002045, 2011, section "Tolman & Honzik
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
+from scipy import stats
 
 from ...agent import Agent, Settings
-from ...worlds import Door, MazeEnv, Position
-from ..pool import map_tasks
-from .intervals import Interval
-from .martinet_rows import BLOCKED, CONDITIONS, FREE, MOST, PROBES, MartinetResult, MartinetRow, MartinetRun
-from .tolman_maze import (
-    BEFORE,
-    BRANCHES,
-    GATES,
-    GOAL,
-    ROUTES,
-    START,
-    STAY,
-    A,
-    B,
-    check_counts,
-    new_agent,
-    new_world,
-    set_closed,
-)
-from .tolman_maze import SETTINGS as MAZE_SETTINGS
+from ...views import theme_of
+from ...worlds import Door
+from .. import Moment
+from . import tolman_maze as maze
+from .figures import Axes, Figure, panels, plot_bars, shares_axis
+from .intervals import Interval, bootstrap
+from .study import Findings, Study
+from .tolman_maze import BRANCHES, ROUTES, START
 
-SETTINGS = replace(MAZE_SETTINGS, information_weight=3.0)
-"""Enough curiosity to go and look whether a door that was shut still is."""
-DAYS = 7
-"""Of training, 12 runs a day; half of the original's, since nothing changes any more after the second."""
-_FIRST: dict[int, Position] = {route: room for room, route in BRANCHES.items()}
+DAYS = 7  # of training, 12 runs a day
+FREE = 9  # free runs on the first day, after a forced one by each route
+BLOCKED = 10  # runs with A closed on each day from the second, and two free runs among them
+PROBES = 7  # runs with B closed on the last day
+MOST = 60  # steps after which a run is given up; it ends at the goal (the original has no limit)
+CONDITIONS = {"free": (1, 2, 3), "A closed": (2, 3), "B closed": (2, 3)}
+"""Conditions, and the routes that count in each: route 1 is left out where it is closed, as in the original."""
+TITLES = {"free": "first day, nothing closed", "A closed": "A closed", "B closed": "last day, B closed"}
+EXPECTED = (("free", 1, 2), ("free", 1, 3), ("A closed", 2, 3), ("B closed", 3, 2))
+"""Under which condition which route was taken more often than which by the animals of Martinet et al., each with
+p < 0.0001 (ANOVA)."""
+ENTRANCES: dict[int, Door] = {route: (START, room) for room, route in BRANCHES.items()}
+BOUNDS = ("0.0001", "0.001", "0.01", "0.05", "1")  # usual ones, of a p
+
+Counts = dict[int, int]  # runs by route
+Shares = dict[str, dict[int, Interval | None]]  # by condition and route
 
 
-def martinet_study(
-    *,
-    agents: int,
-    seed: int = 0,
-    settings: Settings | None = None,
-    executor: Executor | None = None,
-    on_done: Callable[[], None] | None = None,
-    days: int = DAYS,
-) -> MartinetResult:
-    """Train each agent for some days, then close B.
+@dataclass(frozen=True, slots=True)
+class Run:
+    """One run."""
 
-    On the first day it is forced through routes 1, 2 and 3 once each (the other two are shut), then it runs freely.
-    From the second day on A is closed, but for two runs among them, and routes 2 and 3 are shut until it has been
-    there. On the last day B is closed instead of A. What it knows it keeps; between runs it is put back without a word.
+    day: int  # from 1
+    condition: str  # `forced`, `free`, `A closed` or `B closed`
+    route: int | None  # by which the goal was reached; after a block, the one then chosen; None if neither came about
+    steps: int | None  # until the goal, None if it was not reached
 
-    Args:
-        agents: how many; agent i has the seed `seed` + i.
-        seed: of the first.
-        settings: of the agents; `SETTINGS` unless given.
-        executor: where the agents run, in this process if None; the result does not depend on it.
-        on_done: called after each agent.
-        days: of training.
 
-    Raises:
-        CogmapError: `agents` or `days` below 1, or a negative seed.
+@dataclass(frozen=True, slots=True)
+class MartinetRow:
+    """One agent."""
+
+    seed: int
+    counts: dict[str, Counts]  # by condition; of the free runs those of the first day alone
+    runs: tuple[Run, ...]
+
+    @classmethod
+    def of(cls, seed: int, runs: Sequence[Run]) -> MartinetRow:
+        """What these runs come to."""
+        counted = [run for run in runs if run.condition != "free" or run.day == 1]
+        routes = {name: [run.route for run in counted if run.condition == name] for name in CONDITIONS}
+        counts = {name: {route: taken.count(route) for route in ROUTES} for name, taken in routes.items()}
+        return cls(seed, counts, tuple(runs))
+
+
+@dataclass(frozen=True)
+class Martinet(Study[int, MartinetRow]):
+    """Detours after forced training
+
+    Forced runs, free runs, room A closed, then room B closed, after Martinet et al. (2011). Are the routes
+    preferred in the order of their length that is left?
     """
-    check_counts("martinet", agents=agents, days=days)
-    one = partial(_agent, settings or SETTINGS, days)
-    rows = map_tasks(one, range(seed, seed + agents), executor=executor, on_done=on_done)
-    return MartinetResult(tuple(rows), days)
+
+    name = "martinet"
+    notes = ("Half of the original's days of training, since nothing changes any more after the second.",)
+    agents = 40
+    settings = replace(maze.SETTINGS, information_weight=3.0)  # goes and looks whether a door that was shut still is
+
+    days: int = DAYS
+
+    def run(self, task: int, settings: Settings) -> MartinetRow:
+        """On the first day force the agent through each route once (the others are shut), then let it run freely.
+
+        From the second day on A is closed, but for two runs among them, and routes 2 and 3 are shut until it has been
+        there; on the last day B instead of A. What it knows it keeps; between runs it is put back without a word.
+        """
+        agent, rng = maze.new_agent(settings, task), np.random.default_rng([task, self.days])
+        runs = [_run(agent, 1, "forced", route) for route in ROUTES]
+        runs += [_run(agent, 1, "free") for _ in range(FREE)]
+        for day in range(2, self.days + 1):
+            free = free_runs(rng)
+            for number in range(BLOCKED + 2):
+                runs.append(_run(agent, day, "free" if number in free else "A closed"))
+        runs += [_run(agent, self.days + 1, "B closed") for _ in range(PROBES)]
+        return MartinetRow.of(task, runs)
+
+    def summarise(self, rows: Sequence[MartinetRow]) -> Findings:
+        """Shares of the routes that count, and the comparisons of the original."""
+        runs = [run for row in rows for run in row.runs]
+        shares: Shares = {
+            name: {route: _of_all(rows, name, [row.counts[name][route] for row in rows]) for route in routes}
+            for name, routes in CONDITIONS.items()
+        }
+        preferences = [_preference(rows, *expected) for expected in EXPECTED]
+        reached = sum(run.steps is not None for run in runs)
+        protocol = {
+            "start": START,
+            "days": self.days,
+            "forced_runs": len(ROUTES),
+            "free_runs_first_day": FREE,
+            "runs_with_A_closed_a_day": BLOCKED,
+            "runs_with_B_closed": PROBES,
+            "most_steps_a_run": MOST,
+        }
+        counted = {"agents": len(rows), "runs": len(runs), "reached": reached}
+        summary = {**counted, "shares": shares, "preferences": preferences}
+        json = {"world": maze.MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
+        whole = f"{len(rows)} agents, {self.days} days of training; the goal reached in {reached}/{len(runs)} runs"
+        figures = {"martinet_routes": partial(_figure, len(rows), self.days, shares, preferences)}
+        failed = [f"goal reached in {reached} of {len(runs)} runs"] if reached < len(runs) else []
+        return Findings(json, [whole, *_lines(shares, preferences)], figures, failed=failed)
 
 
-def martinet_lines(result: MartinetResult) -> list[str]:
-    """What the terminal shows."""
-    runs = [run for row in result.rows for run in row.runs]
-    reached = sum(run.steps is not None for run in runs)
-    lines = [
-        f"{len(result.rows)} agents, {result.days} days of training; the goal reached in {reached}/{len(runs)} runs"
-    ]
-    for name, routes in CONDITIONS.items():
-        parts = [f"route {route} {_text(result.share(name, route))}" for route in routes]
-        lines.append(f"{name}: {', '.join(parts)} (95 % intervals)")
-    for part in result.preferences():
-        p = "-" if part.p_value is None else f"{part.p_value:.2g}"
-        lines.append(f"{part.condition}: route {part.more} over {part.less} by {_text(part.difference)}, p = {p}")
-    lines.append("Martinet et al. 2011, 40 simulated animals: the same order in all four, each p < 0.0001")
-    return lines
-
-
-def _agent(settings: Settings, days: int, seed: int) -> MartinetRow:
-    agent, world = new_agent(settings, seed), new_world()
-    rng = np.random.default_rng([seed, days])
-    runs = [_forced(agent, world, route) for route in ROUTES]
-    runs += [_free(agent, world, 1) for _ in range(FREE)]
-    for day in range(2, days + 1):
-        free = _apart(rng)
-        for number in range(BLOCKED + 2):
-            runs.append(_free(agent, world, day) if number in free else _blocked(agent, world, day, A))
-    runs += [_blocked(agent, world, days + 1, B) for _ in range(PROBES)]
-    return MartinetRow(seed, tuple(runs))
-
-
-def _apart(rng: np.random.Generator) -> tuple[int, int]:
+def free_runs(rng: np.random.Generator) -> tuple[int, int]:
     """The numbers of a day's two free runs, not one right after the other."""
     while True:
         first, second = sorted(rng.choice(BLOCKED + 2, size=2, replace=False).tolist())
@@ -112,55 +136,79 @@ def _apart(rng: np.random.Generator) -> tuple[int, int]:
             return first, second
 
 
-def _entrances(routes: Sequence[int]) -> list[Door]:
-    return [(START, _FIRST[route]) for route in routes]
+def _run(agent: Agent, day: int, condition: str, forced: int = 0) -> Run:
+    room = {"A closed": maze.A, "B closed": maze.B}.get(condition)
+    shut = [door for route, door in ENTRANCES.items() if (forced or (1 if room else route)) != route]
+    world = maze.new_world(room, shut)
 
-
-def _forced(agent: Agent, world: MazeEnv, route: int) -> MartinetRun:
-    set_closed(world, doors=_entrances([other for other in ROUTES if other != route]))
-    _, steps = _to_goal(agent, world)
-    return MartinetRun(1, "forced", route if steps is not None else None, steps)
-
-
-def _free(agent: Agent, world: MazeEnv, day: int) -> MartinetRun:
-    set_closed(world)
-    path, steps = _to_goal(agent, world)
-    return MartinetRun(day, "free", None if steps is None else _last_route(path), steps)
-
-
-def _blocked(agent: Agent, world: MazeEnv, day: int, room: Position) -> MartinetRun:
-    shut = _entrances((2, 3))
-    set_closed(world, room=room, doors=shut)
-    path, steps = _to_goal(agent, world, until=BEFORE[room], shut=shut)
-    met = path.index(BEFORE[room]) if BEFORE[room] in path else len(path)
-    later = zip(path[met:], path[met + 1 :], strict=False)
-    chosen = [BRANCHES[to] for at, to in later if at == START and to in BRANCHES]
-    name = "A closed" if room == A else "B closed"
-    return MartinetRun(day, name, next((route for route in chosen if route != 1), None), steps)
-
-
-def _to_goal(
-    agent: Agent, world: MazeEnv, *, until: Position | None = None, shut: Sequence[Door] = ()
-) -> tuple[list[Position], int | None]:
-    """The rooms of a run that ends at the goal, and its steps; the doors `shut` open once `until` was reached."""
-    world.displace(START)
-    path: list[Position] = []
-    for step in range(MOST):
-        path.append(world.position)
-        if world.position == until:
+    def open_when_met(moment: Moment) -> None:
+        if room is not None and world.position == maze.BEFORE[room]:
             for door in shut:
                 world.open_door(*door)
-        action = agent.step(world.observe())
-        if world.position == GOAL and action == STAY:
-            return path, step
-        world.step(action)
-    return path, None
+
+    path, steps = maze.walk(agent, world, steps=MOST, ends=True, watch=open_when_met)
+    if room is None:
+        gates = [maze.GATES[place] for place in path if place in maze.GATES]
+        return Run(day, condition, None if steps is None else forced or gates[-1], steps)
+    later = path[path.index(maze.BEFORE[room]) :] if maze.BEFORE[room] in path else ()
+    chosen = [BRANCHES[to] for at, to in pairwise(later) if at == START and to in BRANCHES]
+    return Run(day, condition, next((route for route in chosen if route != 1), None), steps)
 
 
-def _last_route(path: Sequence[Position]) -> int | None:
-    """The route on which the goal was reached."""
-    return next((GATES[room] for room in reversed(path) if room in GATES), None)
+def _of_all(rows: Sequence[MartinetRow], condition: str, values: Sequence[int]) -> Interval | None:
+    """Runs of each agent over all its runs that count, with the interval over the agents."""
+    return bootstrap(values, [sum(row.counts[condition][route] for route in CONDITIONS[condition]) for row in rows])
+
+
+def _preference(rows: Sequence[MartinetRow], condition: str, more: int, less: int) -> dict[str, Any]:
+    """How much more often one route is taken than the other: difference of the shares, mean of the agents.
+
+    It is None if neither was ever taken; p is that of Wilcoxon's signed-rank test over the agents, one-sided, None with
+    fewer than two.
+    """
+    differences = [row.counts[condition][more] - row.counts[condition][less] for row in rows]
+    test: Any = stats.wilcoxon(differences, alternative="greater") if any(differences) else None
+    p_value = None if len(rows) < 2 else 1.0 if test is None else float(test.pvalue)
+    difference = _of_all(rows, condition, differences)
+    return {"condition": condition, "more": more, "less": less, "difference": difference, "p_value": p_value}
+
+
+def _lines(shares: Shares, preferences: Sequence[dict[str, Any]]) -> list[str]:
+    lines: list[str] = []
+    for name, part in shares.items():
+        texts = ", ".join(f"route {route} {_text(share)}" for route, share in part.items())
+        lines.append(f"{name}: {texts} (95 % intervals)")
+    for part in preferences:
+        p, by = "-" if part["p_value"] is None else f"{part['p_value']:.2g}", _text(part["difference"])
+        lines.append(f"{part['condition']}: route {part['more']} over {part['less']} by {by}, p = {p}")
+    return [*lines, "Martinet et al. 2011, 40 simulated animals: the same order in all four, each p < 0.0001"]
 
 
 def _text(interval: Interval | None) -> str:
     return "-" if interval is None else f"{interval.value:.0%} ({interval.low:.0%} to {interval.high:.0%})"
+
+
+def _figure(agents: int, days: int, shares: Shares, preferences: Sequence[dict[str, Any]]) -> Figure:
+    who, long = f"{agents} agent{'s' * (agents > 1)}", f"{days} day{'s' * (days > 1)}"
+    title = f"Routes chosen by {who} after {long} of training, mean with 95 % intervals (bootstrap over agents)"
+    widths = [len(part) for part in shares.values()]
+    figure, axes = panels(title, (1, 3), (10.5, 4.4), sharey=True, width_ratios=widths)
+    for ax, (name, part) in zip(axes, shares.items(), strict=True):
+        texts, colours = [f"{share.value:.0%}" if share else "" for share in part.values()], maze.COLOURS
+        there = [colours[route] for route, share in part.items() if share is not None]
+        plot_bars(ax, range(len(part)), list(part.values()), texts=texts, width=0.65, color=there)
+        ax.set_xticks(range(len(part)), [f"route {route}" for route in part])
+        ax.set_title(TITLES[name], fontsize=12)
+        for number, one in enumerate(one for one in preferences if one["condition"] == name):
+            _bracket(ax, one["more"], one["less"], one["p_value"], CONDITIONS[name], 1.1 + 0.1 * number)
+    shares_axis(axes[0], "share of the runs that count", high=1.32)
+    return figure
+
+
+def _bracket(ax: Axes, more: int, less: int, p_value: float | None, routes: Sequence[int], height: float) -> None:
+    left, right = sorted((routes.index(more), routes.index(less)))
+    ends = [height - 0.015, height, height, height - 0.015]
+    ax.plot([left, left, right, right], ends, color=theme_of(ax).shade(0.7), linewidth=1.0)
+    above = next((bound for bound in BOUNDS if p_value is not None and p_value < float(bound)), "1")
+    text = f"{more} > {less}" + ("" if p_value is None else f", p < {above}")
+    ax.text((left + right) / 2, height + 0.008, text, ha="center", va="bottom", size=9)

@@ -3,138 +3,131 @@
 from __future__ import annotations
 
 import os
-import tempfile
+import platform
+import re
+from base64 import b64encode
 from collections.abc import Mapping
+from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ...agent import Settings
-from ...model.errors import CogmapError
-from ...model.files import write_whole
-from ..output import check_outputs, write_json, write_picture
-from .about import about
-from .frame import Result, Study
-from .json_tables import flat
-from .machine import machine, versions
-from .report import Report, Value
-from .report_html import html_page
+from jinja2 import Environment, FileSystemLoader
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from ...model import write_whole
+from .. import write_json, write_picture
+from .study import AnyStudy, Findings
+from .tables import Table, Value, flat, plain, tables_of
 
 PICTURES = (".png", ".svg")
-REPORTS = (".json", ".md", ".html")
+PACKAGES = ("cogmap", "numpy", "scipy", "gtsam")
+FACTS = ("agents", "seed", "machine", "versions", "protocol", "settings")  # of the JSON, to run a study again
+CPUINFO = Path("/proc/cpuinfo")
+LARGEST = 1_000_000  # bytes of a drawing (SVG) above which a page holds the picture (PNG) instead
 
 
-def check_folder(folder: Path, study: str) -> None:
-    """Refuse, before anything is computed, a folder in which `save_study` could not write.
-
-    Raises:
-        CogmapError: it is a file, or not writable, or cannot be made.
-    """
-    try:
-        if folder.is_dir():
-            check_outputs([folder / f"{study}{suffix}" for suffix in REPORTS])
-            return
-        target = above = Path(os.path.realpath(folder))
-        while not (above.exists() or above == above.parent):
-            above = above.parent
-        if not above.is_dir():
-            raise CogmapError(f"cannot make folder {folder}: {above} is a file; choose another folder")
-        with tempfile.TemporaryDirectory(dir=above, prefix=".cogmap-") as there:
-            (Path(there) / target.relative_to(above)).mkdir(parents=True)  # a name may be too long
-    except OSError as error:
-        raise CogmapError(f"cannot make folder {folder}: {error.strerror or error}; choose another folder") from error
-
-
-def make_folder(folder: Path) -> None:
-    """Make the folder, and those above it.
-
-    Raises:
-        CogmapError: it cannot be made.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CogmapError(f"cannot make folder {folder}: {error.strerror or error}; choose another folder") from error
-
-
-def study_report(study: Study, result: Result, *, agents: int, seed: int, settings: Settings) -> dict[str, Any]:
-    """What the study found, and all that it takes to run it again, as plain JSON values."""
-    own = study.settings()
-    look_ahead = "" if settings.look_ahead == own.look_ahead else f" --look-ahead {settings.look_ahead}"
-    head = {
-        "study": study.name,
-        "agents": agents,
-        "seed": seed,
-        "command": f"cogmap study {study.name} --runs {agents} --seed {seed}{look_ahead}",
-        "settings": settings.to_dict(),
-        "versions": versions(),
-        "machine": machine(),
-    }
-    return {**head, **result.to_dict()}
-
-
-def save_study(folder: Path, study: Study, result: Result, report: dict[str, Any]) -> list[Path]:
-    """Write everything; answers with the files, the JSON first and the report last.
+def write_study(folder: Path, study: AnyStudy, found: Findings, head: Mapping[str, Any]) -> list[Path]:
+    """Write everything into a folder that is there; answers with the files, the JSON first and the report last.
 
     Args:
-        folder: is made if need be.
+        folder: where.
         study: which it was.
-        result: of the study.
-        report: what `study_report` gave.
+        found: what came of it.
+        head: what it takes to run it again, plain JSON; stands before what was found.
 
     Raises:
         CogmapError: a file cannot be written; those before it are whole.
     """
-    make_folder(folder)
-    written = [folder / f"{study.name}.json"]
-    write_json(written[0], report)
-    tables, figures = tuple(study.tables(result)), study.figures(result)
-    for table in tables:
-        written.append(folder / f"{table.name}.csv")
-        write_whole(written[-1], table.csv().encode())
-    for stem, figure in figures.items():
+    json, (title, question), figures = plain(found.json), study.asks, list[tuple[str, str]]()
+    tables, written = found.tables, [folder / f"{study.name}.json"]
+    write_json(written[0], {**head, **json})
+    tables = tables_of(study.name, json) if tables is None else tables
+    written += [write_whole(folder / f"{table.name}.csv", table.csv().encode()) for table in tables]
+    for stem, draw in found.figures.items():
+        figure = draw()
+        titles = [figure.get_suptitle(), *(ax.get_title() for ax in figure.axes), stem.replace("_", " ")]
+        figures.append((stem, next(filter(None, titles))))
         for suffix in PICTURES:
             written.append(folder / f"{stem}{suffix}")
             write_picture(written[-1], figure)
-    text = about(study.name)
-    document = Report(
-        title=f"{text.title} (study {study.name})",
-        asked=text.asked,
-        lines=() if study.has_tables else tuple(study.lines(result)),
-        figures=tuple((f"{stem}.png", _caption(stem, figure)) for stem, figure in figures.items()),
-        tables=tables,
-        failed=study.failed(result),
-        notes=text.notes,
-        command=report["command"],
-        facts=facts(report),
-    )
-    return written + write_report(folder / study.name, document)
+    parts = {"tables": tables, "figures": figures, "failed": found.failed, "notes": study.notes}
+    parts |= {"lines": found.lines if found.tables is None else (), "question": question}
+    return written + write_report(folder / study.name, f"{title} (study {study.name})", {**head, **json}, **parts)
 
 
-def write_report(stem: Path, document: Report) -> list[Path]:
-    """Write the report as Markdown, and with its pictures inside as HTML; answers with the files.
+def write_report(stem: Path, title: str, values: Mapping[str, Any], **parts: Any) -> list[Path]:
+    """Write a report as Markdown, and with its pictures inside as HTML; answers with the files.
+
+    Args:
+        stem: of the files.
+        title: of the report.
+        values: of the JSON: `command`, and those of `FACTS` that are there.
+        parts: what else stands in it, see `report.jinja`.
 
     Raises:
         CogmapError: a file cannot be written.
     """
-    markdown = document.markdown()
-    pages = {".md": markdown, ".html": html_page(markdown, stem.parent)}
-    written = [stem.with_name(f"{stem.name}{suffix}") for suffix in pages]
-    for path, page in zip(written, pages.values(), strict=True):
-        write_whole(path, page.encode())
-    return written
+    how: dict[str, Any] = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
+    templates = Environment(loader=FileSystemLoader(Path(__file__).parent), **how)
+    templates.filters |= {"md": escape, "cell": lambda value: escape(shown(value))}
+    facts = flat({name: values[name] for name in FACTS if name in values})
+    parts |= {"command": values["command"], "facts": Table("", ("what", "value"), list(facts.items()))}
+    text = templates.get_template("report.jinja").render(title=title, **parts)
+    page = templates.get_template("page.html").render(title=title, body=html_of(text, stem.parent))
+    texts = {".md": text, ".html": page}
+    return [write_whole(stem.with_name(stem.name + suffix), text.encode()) for suffix, text in texts.items()]
 
 
-def facts(report: Mapping[str, Any]) -> tuple[tuple[str, Value], ...]:
-    """Seed, machine, versions, protocol and settings, by dotted name."""
-    named = {
-        key: report[key] for key in ("agents", "seed", "machine", "versions", "protocol", "settings") if key in report
+def html_of(text: str, folder: Path) -> str:
+    """Markdown (CommonMark with tables) as HTML, with the pictures inside that it links, from `folder`.
+
+    HTML in it is shown, not obeyed; a picture that is not there is left a link.
+    """
+    from markdown_it import MarkdownIt
+
+    reader = MarkdownIt("commonmark", {"html": False}).enable("table")
+    tokens = reader.parse(text)
+    for token in [part for parent in tokens for part in (parent, *(parent.children or ()))]:
+        if token.type == "image":
+            token.attrs["src"] = _inside(folder, str(token.attrs["src"]))
+        elif token.type == "link_open":  # a page leads to pages
+            token.attrs["href"] = re.sub(r"\.md$", ".html", str(token.attrs["href"]))
+    body = str(reader.renderer.render(tokens, reader.options, {}))
+    return body.replace("<table>", '<div class="wide"><table>').replace("</table>", "</table></div>")
+
+
+def escape(text: str) -> str:
+    """Text that Markdown shows as it is, on one line."""
+    text = re.sub(r"[\\`*<&|]|(?<!\w)_|_(?!\w)", lambda sign: f"\\{sign[0]}", text)
+    return " ".join(text.replace("](", "]\\(").split())
+
+
+def shown(value: Value) -> str:
+    """A value for people: yes and no, a dash for none, four digits of what is no whole number."""
+    if value is None or isinstance(value, bool):
+        return {None: "–", True: "yes", False: "no"}[value]
+    if isinstance(value, float):
+        return f"{value:.4g}" if abs(value) < 1000.0 else f"{value:.0f}"
+    return str(value)
+
+
+def made_with() -> dict[str, Any]:
+    """Versions of what computes, and the machine: what else a result may depend on."""
+    packages = {name: version(name) for name in PACKAGES}
+    lines = CPUINFO.read_text(errors="replace").splitlines() if CPUINFO.is_file() else []
+    models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    processor = next(iter(models), platform.processor() or platform.machine() or "unknown")
+    system = {"cores": os.cpu_count(), "system": f"{platform.system()} {platform.release()}"}
+    return {
+        "versions": {**packages, "python": platform.python_version(), "platform": platform.platform()},
+        "machine": {"processor": processor, **system, "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS")},
     }
-    return tuple(flat(named).items())
 
 
-def _caption(stem: str, figure: Figure) -> str:
-    titles = [figure.get_suptitle(), *(ax.get_title() for ax in figure.axes)]
-    return next((title for title in titles if title), stem.replace("_", " "))
+def _inside(folder: Path, name: str) -> str:
+    """The picture as a data URI, drawn if the drawing beside it is not too large."""
+    picture = folder / name
+    drawing = picture.with_suffix(".svg")
+    if drawing.is_file() and drawing.stat().st_size <= LARGEST:
+        picture = drawing
+    kind = "svg+xml" if picture.suffix == ".svg" else "png"
+    return f"data:image/{kind};base64,{b64encode(picture.read_bytes()).decode()}" if picture.is_file() else name

@@ -7,13 +7,11 @@ from .export import equation, quoted
 from .factor_graph import FactorGraph
 from .factors import Factor, FloatArray, IntArray, SparseValues, log_bounds, sparse_values
 from .structure import AllEvidence, Evidence, GraphStructure
-from .svg import MOST_DRAWN, graph_svg
 from .tables import LabelledTable, labelled, table
 from .template import Before, Template, before
-from .variables import Variable, shortened
+from .variables import Variable
 
 __all__ = [
-    "MOST_DRAWN",
     "AllEvidence",
     "Before",
     "ConditionalTable",
@@ -30,11 +28,9 @@ __all__ = [
     "Variable",
     "before",
     "equation",
-    "graph_svg",
     "labelled",
     "log_bounds",
     "quoted",
-    "shortened",
     "sparse_values",
     "table",
 ]

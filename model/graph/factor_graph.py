@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Self
 from . import export, plain_json
 from .html import graph_html
 from .structure import GraphStructure
-from .svg import graph_svg
 from .tables import LabelledTable, table
 
 if TYPE_CHECKING:
@@ -65,6 +64,3 @@ class FactorGraph(GraphStructure):
 
     def _repr_html_(self) -> str:
         return graph_html(self)
-
-    def _repr_svg_(self) -> str | None:
-        return graph_svg(self)

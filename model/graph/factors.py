@@ -142,7 +142,7 @@ class Factor:
     def bounds(self) -> tuple[float, float]:
         """Logs of the smallest entry above 0 and of the largest; `(inf, -inf)` where all are 0. Looked up once."""
         if "bounds" not in self._known:
-            self._known["bounds"] = log_bounds(self.entries)
+            self._known["bounds"] = log_bounds(self.entries, self._known["extremes"])
         return self._known["bounds"]
 
     @property
@@ -157,7 +157,7 @@ class Factor:
         """Whether every value is above 0."""
         if "positive" not in self._known:
             whole = isinstance(self.values, np.ndarray) or len(self.entries) == math.prod(self.shape)
-            self._known["positive"] = bool(whole and self.entries.min() > 0)
+            self._known["positive"] = bool(whole and self._known["extremes"][0] > 0)
         return self._known["positive"]
 
     @property
@@ -190,15 +190,24 @@ class Factor:
         return sums if len(columns) == math.prod(self.shape[1:]) else np.append(sums, 0.0)
 
 
-def log_bounds(values: FloatArray) -> tuple[float, float]:
-    """Logs of the smallest entry above 0 and of the largest; `(inf, -inf)` where none is."""
-    largest = float(values.max()) if values.size else 0.0
+def log_bounds(values: FloatArray, extremes: tuple[float, float] | None = None) -> tuple[float, float]:
+    """Logs of the smallest entry above 0 and of the largest; `(inf, -inf)` where none is.
+
+    `extremes` are the smallest and the largest entry, where they are known.
+    """
+    smallest, largest = extremes or _extremes(values)
     if largest <= 0.0:
         return math.inf, -math.inf
-    smallest = float(values.min())
     if smallest <= 0.0:
-        smallest = float(values[values > 0.0].min())
+        smallest = float(np.minimum.reduce(values[values > 0.0], axis=None))
     return math.log(smallest), math.log(largest)
+
+
+def _extremes(values: FloatArray) -> tuple[float, float]:
+    """The smallest and the largest entry; 0 where there is none."""
+    if not values.size:
+        return 0.0, 0.0
+    return float(np.minimum.reduce(values, axis=None)), float(np.maximum.reduce(values, axis=None))
 
 
 def sparse_values(shape: Sequence[int], indices: ArrayLike, values: ArrayLike) -> SparseValues:
@@ -225,7 +234,6 @@ def _check_values(factor: Factor) -> None:
             f"factor {factor.label}: values have shape {factor.values.shape}, the domains have {expected}; "
             "give one axis a variable, in the order of the scope"
         )
-    numbers = factor.values.values if isinstance(factor.values, SparseValues) else factor.values
-    # a NaN makes both comparisons false
-    if numbers.size and not (numbers.min() >= 0 and numbers.max() < math.inf):
+    smallest, largest = factor._known["extremes"] = _extremes(factor.entries)  # pyright: ignore[reportPrivateUsage]
+    if not (smallest >= 0 and largest < math.inf):  # a NaN makes both comparisons false
         raise CogmapError(f"factor {factor.label}: a value is NaN, infinite or negative; mend the table")

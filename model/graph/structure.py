@@ -190,14 +190,18 @@ class GraphStructure:
             )
         return self.without_factor(found[0].label).observe(variable, label)
 
-    def refreshed(self) -> Self:
-        """A new graph whose learnable conditionals have the present mean of their tables."""
+    def replaced(self, factors: Iterable[Factor]) -> Self:
+        """A new graph with these factors in the places of those that have the same labels."""
         graph = self.copy()
-        for label, factor in self._factors.items():
-            if isinstance(factor.table, LearnableTable):
-                graph._factors[label] = replace(factor, values=factor.table.mean())
+        for factor in factors:
+            graph._factors[self.factor_named(factor.label).label] = factor
         graph._wiring = None
         return graph
+
+    def refreshed(self) -> Self:
+        """A new graph whose learnable conditionals have the present mean of their tables."""
+        tied = [(factor, factor.table) for factor in self._factors.values() if isinstance(factor.table, LearnableTable)]
+        return self.replaced(replace(factor, values=table.mean()) for factor, table in tied)
 
     def with_tables(self, prior: float = 1.0) -> Self:
         """A new graph in which every conditional has a table to learn: `ConditionalTable`, the same prior everywhere.
@@ -205,12 +209,8 @@ class GraphStructure:
         A conditional is a factor that is normalised over its first variable. The values stay as they are until they
         are `refreshed` or learned. Tables that are there already stay.
         """
-        graph = self.copy()
-        for label, factor in self._factors.items():
-            if factor.table is None and factor.normalised:
-                graph._factors[label] = replace(factor, table=ConditionalTable(np.full(factor.shape, prior)))
-        graph._wiring = None
-        return graph
+        bare = [factor for factor in self._factors.values() if factor.table is None and factor.normalised]
+        return self.replaced(replace(factor, table=ConditionalTable(np.full(factor.shape, prior))) for factor in bare)
 
     def copy(self) -> Self:
         """A graph of its own with the same variables, factors and evidence."""

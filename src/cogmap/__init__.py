@@ -1,20 +1,16 @@
-"""Agents that build their own map: growing cognitive maps as explicit discrete factor graphs.
-
-`from cogmap import Agent, Settings, load_world` is what a first walk needs; everything else is in the folders:
-`cogmap.worlds`, `cogmap.model`, `cogmap.inference`, `cogmap.planning`, `cogmap.agent`, `cogmap.views`,
-`cogmap.baselines`, `cogmap.experiments`. The names here are imported when they are first used.
-"""
+"""Agents that build their own map: `from cogmap import Agent, load_world`."""
 
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
-    from .agent import Agent, Settings
-    from .worlds import load_world
+if TYPE_CHECKING:  # a type checker finds these in an installed wheel, not in a checkout
+    from cogmap.agent import Agent, Settings  # pyright: ignore[reportMissingImports]
+    from cogmap.worlds import load_world  # pyright: ignore[reportMissingImports]
 
-    __version__: str
+__version__ = version("cogmap")
 
 _HOMES = {"Agent": "agent", "Settings": "agent", "load_world": "worlds"}
 
@@ -22,13 +18,10 @@ __all__ = ["Agent", "Settings", "__version__", "load_world"]
 
 
 def __getattr__(name: str) -> Any:
-    if name == "__version__":
-        from importlib.metadata import version
-
-        return version("cogmap")
+    # imported on first use, so that `import cogmap.worlds` need not wait for the agent
     if name in _HOMES:
-        return getattr(import_module(f".{_HOMES[name]}", __name__), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return getattr(import_module(f"cogmap.{_HOMES[name]}"), name)
+    raise AttributeError(f"module 'cogmap' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

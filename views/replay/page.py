@@ -84,7 +84,9 @@ def _content(recording: Recording) -> dict[str, Any]:
         "goals": [number(label) for label in data["goals"]],
         "layout": _layout(recording),
     }
-    return content | {"looks": [_look(label) for label in numbers]}
+    colours = [(label, sight_colour(label)) for label in numbers]
+    ink = {"black": "#000", "white": "#fff"}
+    return content | {"looks": [(str(label), hexed(colour), ink[ink_on(colour)]) for label, colour in colours]}
 
 
 def _layout(recording: Recording) -> list[Cell] | None:
@@ -97,9 +99,3 @@ def _layout(recording: Recording) -> list[Cell] | None:
             largest = replace(picture, places=[*picture.places], rows={**picture.rows})
     cells = largest.cells
     return [cells[place] for place in sorted(cells)]
-
-
-def _look(label: Hashable) -> tuple[str, str, str]:
-    """Text, colour and ink of a label."""
-    colour = sight_colour(label)
-    return str(label), hexed(colour), "#000" if ink_on(colour) == "black" else "#fff"

@@ -40,8 +40,8 @@ function readKinds() {
   const rows = [...lasting].sort((a, b) => "ps".indexOf(a) - "ps".indexOf(b)), below = 40 + ROW * (Math.max(rows.length, 2) - 1) + 78;
   rows.forEach((kind, i) => spots.set(kind, { aside: 0, y: 40 + i * ROW }));
   for (const kind of others) spots.set(kind, { aside: null, y: 40 + ROW / 2 });
-  [...observed].forEach((kind, i, all) => spots.set(kind, { aside: all.length === 1 ? 0 : i % 2 ? 22 : -22, y: below + 52 * (i >> 1), observed: true }));
-  windowHeight = below + 52 * Math.max((observed.size - 1) >> 1, 0) + 28;
+  [...observed].forEach((kind, i, all) => spots.set(kind, { aside: all.length === 1 ? 0 : i % 2 ? 22 : -22, y: below + 56 * (i >> 1), up: i > 1 ? 29 : 36, observed: true }));
+  windowHeight = below + 56 * Math.max((observed.size - 1) >> 1, 0) + 28;
 }
 
 // What was believed of a variable at a step: the last that was told up to then.
@@ -63,7 +63,7 @@ function factorSpot(factor, places) {
   const mean = (i) => points.reduce((sum, point) => sum + point[i], 0) / points.length;
   if (factor.lasting) return [x - column / 2, y];
   if (points.length === 1 && between(first)) return [x + 40, y];
-  if (spots.get(first).observed) return [x, y - 36];
+  if (spots.get(first).observed) return [x, y - spots.get(first).up];
   return [mean(0), mean(1)];
 }
 
@@ -90,8 +90,8 @@ function odds(variable, index) {
 function factorName({ name, scope, lasting }, x, y) {
   const first = ofKind(scope[0]), { aside, observed, y: row } = spots.get(first);
   if (lasting || (scope.length === 1 && between(first))) return shape("text", { x, y: y + (lasting && row > 40 ? 17 : -9), class: "factor-name middle" }, name);
-  if (observed && aside < 0) return shape("text", { x: x - 8, y: y + 4, class: "factor-name end" }, name);
-  return shape("text", { x: x + (observed ? 8 : 6), y: y + (observed ? 4 : -6), class: "factor-name" }, name);
+  if (observed && aside < 0) return shape("text", { x: x - 8, y: y + 4, class: "factor-name end" }, clipped(name, 4));
+  return shape("text", { x: x + (observed ? 8 : 6), y: y + (observed ? 4 : -6), class: "factor-name" }, observed ? clipped(name, 4) : name);
 }
 
 function layWindow() {
@@ -144,5 +144,5 @@ function drawWindow(index) {
   windowPicture.layer.replaceChildren(...lines, ...marks);
   windowPicture.about.textContent = `Steps ${first} to ${frame.step}: ${plural(names.length, "variable")} and ${plural(shown.length, "factor")}.`;
   $("window-legend").textContent = `Steps ${since} to ${frame.step}${first > since ? `, from ${first} on shown here` : ""}. White: latent, with the most probable value; `
-    + `grey: observed. ${[...spots.keys()].map((kind) => `${kind}: ${WORDS[kind] || kind}`).join(", ")}.`;
+    + `grey: observed. ${[...spots.keys()].filter((kind) => WORDS[kind]).map((kind) => `${kind}: ${WORDS[kind]}`).join(", ")}.`;
 }

@@ -16,10 +16,11 @@ function placeName(place) {
 }
 
 function seen(frame) {
-  const open = ACTIONS.filter((_, action) => frame.open[action] && action !== R.motions.stay);
+  const open = ACTIONS.filter((_, action) => frame.open && frame.open[action] && action !== R.motions.stay);
+  const ways = frame.open ? `; ${open.length ? "open: " + open.join(", ") : "no way is open"}` : "";
   const labels = Object.entries(frame.seen).map(([sensor, seen_]) => [sensor, clipped(R.looks[seen_][0], 40)]);
   const what = labels.length === 1 ? `sees ${labels[0][1]}` : `senses ${labels.map((pair) => pair.join(" ")).join(", ")}`;
-  return `Step ${frame.step}. It ${what}; ${open.length ? "open: " + open.join(", ") : "no way is open"}.`;
+  return `Step ${frame.step}. It ${labels.length ? what : "sees nothing"}${ways}.`;
 }
 
 function believed(frame) {

@@ -1,0 +1,167 @@
+"""What may have happened in one step, under one hypothesis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import log
+from typing import NamedTuple
+
+from .evidence import log_likelihood, log_predictive, probability, way_odds
+from .hypothesis import Hypothesis
+from .records import NOWHERE, Place
+from .scheme import Sensed
+
+LOOK_ALIKES = 64
+"""Places into which a silent move is thought of at most, the last ones first seen."""
+
+RELINKED = 0.02
+"""P(a way that was walked once leads elsewhere after all, since that walk was another); falls with walks squared."""
+
+
+class Alternative(NamedTuple):
+    """One thing that may have happened.
+
+    Attributes:
+        weight: log P(branch, sensed | hypothesis), times the weight of the hypothesis.
+        parent: the hypothesis it continues.
+        way: the way that was walked; `NOWHERE` if none was.
+        to: the place the agent is in now; `NOWHERE` for one never seen.
+        charted: the new place is where the pose says.
+        astray, failed, moved: posterior probabilities that this is how it happened.
+    """
+
+    weight: float
+    parent: Hypothesis
+    way: int
+    to: int
+    charted: bool
+    astray: float
+    failed: float
+    moved: float
+
+
+class Lead(NamedTuple):
+    """Where an open way may lead: `to` (if that is a place) with `sure`, a new place where the pose says, or off it."""
+
+    to: int
+    sure: float
+    new: float
+    off: float
+
+
+def branches(h: Hypothesis, sensed: Sensed, *, drop: float) -> Iterator[Alternative]:
+    """What may have happened, as far as it is within `drop` (nats) of the most probable so far."""
+    walker = _Walker(h, sensed)
+    for branch in walker.moves():
+        walker.floor = max(walker.floor, branch.weight - drop)
+        yield branch
+
+
+class _Walker:
+    """The branches of one hypothesis; evidence of a place is worked out once."""
+
+    def __init__(self, h: Hypothesis, sensed: Sensed) -> None:
+        self.h, self.sensed, self.chances = h, sensed, h.chances
+        self.place = h.places[h.here]
+        self.open = [probability(way_odds(h, h.here, self.place, way)) for way in range(h.scheme.count)]
+        self.evidence: dict[int, float] = {}
+        self.floor = -float("inf")
+
+    def moves(self) -> Iterator[Alternative]:
+        h, action, chances = self.h, self.sensed.action, self.chances
+        if self.sensed.told:
+            yield from self._moved(0.0)
+            return
+        astray = 0.0 if self.sensed.certain else chances.astray
+        each = astray / h.scheme.count
+        stayed = h.weight + log(1.0 - chances.moved)
+        if action is not None:
+            yield from self._walk(action, stayed + log(1.0 - astray), 0.0)
+        yield self._stay(stayed, astray, each)
+        if each > 0.0 and stayed + log(each) > self.floor:
+            for way in range(h.scheme.count):
+                if way != action:
+                    yield from self._walk(way, stayed + log(each), 1.0)
+        yield from self._moved(h.weight + log(chances.moved))
+
+    def _stay(self, before: float, astray: float, each: float) -> Alternative:
+        action, fails = self.sensed.action, self.chances.fails
+        stays = [1.0 - p * (1.0 - fails) for p in self.open]
+        lost = each * (1.0 + sum(p for way, p in enumerate(stays) if way != action))
+        given = (1.0 - astray) * (1.0 if action is None else stays[action])
+        failed = 0.0 if action is None else (1.0 - astray) * self.open[action] * fails
+        total = given + lost
+        weight = before + log(total) + self._at(self.h.here)
+        return Alternative(weight, self.h, NOWHERE, self.h.here, False, lost / total, failed / total, 0.0)
+
+    def _walk(self, way: int, before: float, astray: float) -> Iterator[Alternative]:
+        h, p = self.h, self.open[way] * (1.0 - self.chances.fails)
+        before += log(p)
+        lead = leads(h, h.here, self.place, way)
+        if lead.to != NOWHERE:
+            yield Alternative(before + log(lead.sure) + self._at(lead.to), h, way, lead.to, False, astray, 0.0, 0.0)
+        back = None if h.scheme.inverse is None else h.scheme.inverse[way]
+        if lead.new > 0.0 and before + log(lead.new) > self.floor:
+            key = h.beyond(self.place, way)
+            weight = before + log(lead.new) + log_predictive(h, self.sensed, key, back, h.here)
+            yield Alternative(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
+        if lead.off > 0.0 and before + log(lead.off) > self.floor:
+            weight = before + log(lead.off) + log_predictive(h, self.sensed, None, back, h.here)
+            yield Alternative(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
+
+    def _moved(self, before: float) -> Iterator[Alternative]:
+        h = self.h
+        unseen = max(0.5, 0.5 * (h.counts.yes[0] - h.links))
+        each = before - log(h.size + unseen)
+        if each + log(max(unseen, 1.0)) <= self.floor:
+            return
+        reading = self.sensed.sights[0]
+        alike = h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(h.places)
+        for number in alike[-LOOK_ALIKES:]:
+            if number != h.here:
+                yield Alternative(each + self._at(number), h, NOWHERE, number, False, 0.0, 0.0, 1.0)
+        weight = each + log(unseen) + log_predictive(h, self.sensed, None, None, NOWHERE)
+        yield Alternative(weight, h, NOWHERE, NOWHERE, False, 0.0, 0.0, 1.0)
+
+    def _at(self, number: int) -> float:
+        found = self.evidence.get(number)
+        if found is None:
+            found = self.evidence[number] = log_likelihood(self.h, number, self.sensed)
+        return found
+
+
+def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:
+    """Where an open way leads, as far as one place is more probable than any other.
+
+    What a hypothesis takes for a place never seen may be a known one: that is left to folding, which weighs it.
+    """
+    chances, known = h.chances, place.ways[way]
+    off = 1.0 / (h.size + 1.0)
+    if known.walks:
+        doubt = RELINKED / (known.walks * known.walks)
+        return Lead(known.to, 1.0 - doubt, 0.0, doubt * off)
+    if known.to != NOWHERE:
+        return Lead(known.to, chances.undone, 0.0, (1.0 - chances.undone) * off)
+    if h.scheme.displacements is None:
+        return _returns(h, place, way)
+    beside = h.beside(place, way)
+    elsewhere = chances.elsewhere
+    if beside == NOWHERE:
+        return Lead(NOWHERE, 0.0, 1.0 - elsewhere, elsewhere * off)
+    assert h.scheme.inverse is not None
+    back = h.places[beside].ways[h.scheme.inverse[way]]
+    if back.walks and back.to != number:
+        elsewhere = chances.undone
+    return Lead(beside, 1.0 - elsewhere, 0.0, elsewhere * off)
+
+
+def _returns(h: Hypothesis, place: Place, way: int) -> Lead:
+    """Without poses: back to where the agent once came from, as far as actions were found to undo each other."""
+    best, sure = NOWHERE, 0.0
+    if h.scheme.inverse is None:
+        for source, by in place.into:
+            yes, no = h.undo.get((by, way), (0.0, 0.0))
+            p = (yes + 0.3) / (yes + no + 0.3 * h.scheme.count)
+            if p > sure:
+                best, sure = source, p
+    return Lead(best, min(sure, 0.98), (1.0 - min(sure, 0.98)) * h.chances.new, 0.0)

@@ -1,0 +1,79 @@
+"""The rates of one hypothesis at one step, ready for use."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import log
+
+from .rates import (
+    ASTRAY,
+    BESIDE,
+    CHANGED,
+    ELSEWHERE,
+    FAILS,
+    MOVED,
+    NEW,
+    OPEN,
+    SIGHT_MISREAD,
+    UNDONE,
+    WAY_MISREAD,
+    RateCounts,
+)
+
+SUREST, LEAST_SURE = 1e-4, 0.45
+"""Bounds of the rates of misreading: a reading is never proof, and never worth nothing."""
+
+
+class Chances:
+    """Expected rates.
+
+    Attributes:
+        open, odds: P(a way is open) and its log odds.
+        beside: log odds that a way is open beyond which there is a known place.
+        wrong, unit: P(a way is misread) and the log odds that one reading is worth.
+        limit, most: the log odds beyond which nothing is believed of a way, since it may change; in readings.
+        misread, right, sight_unit: P(a sight is misread as a certain other label), P(it is read right), and the log
+            odds that one reading is worth; a sensor each.
+        labels: number of labels of each sensor, one never met included.
+        fails, astray, moved, elsewhere, undone, new: as the rates are called.
+    """
+
+    __slots__ = (
+        "astray",
+        "beside",
+        "elsewhere",
+        "fails",
+        "labels",
+        "limit",
+        "misread",
+        "most",
+        "moved",
+        "new",
+        "odds",
+        "open",
+        "right",
+        "sight_unit",
+        "undone",
+        "unit",
+        "wrong",
+    )
+
+    def __init__(self, counts: RateCounts, labels: Sequence[int], *, size: int = 1) -> None:
+        mean = counts.mean
+        found = size - 1.0  # ways by which places were found say nothing of those between places found otherwise
+        beside = (counts.yes[BESIDE] - found, counts.no[BESIDE])
+        between = (1.0 + max(beside[0], 0.0)) / (2.0 + max(beside[0], 0.0) + max(beside[1], 0.0))
+        self.beside = log(between / (1.0 - between))
+        self.open = mean(OPEN)
+        self.odds = log(self.open / (1.0 - self.open))
+        self.wrong = min(max(mean(WAY_MISREAD), SUREST), LEAST_SURE)
+        self.unit = log((1.0 - self.wrong) / self.wrong)
+        self.limit = -log(mean(CHANGED))
+        self.most = self.limit / self.unit
+        self.fails, self.astray, self.moved = mean(FAILS), mean(ASTRAY), mean(MOVED)
+        self.elsewhere, self.undone, self.new = mean(ELSEWHERE), mean(UNDONE), mean(NEW)
+        error = min(max(mean(SIGHT_MISREAD), SUREST), 0.9)
+        self.labels = tuple(labels)
+        self.misread = tuple(error / n for n in labels)
+        self.right = tuple(1.0 - error + each for each in self.misread)
+        self.sight_unit = tuple(log(r / m) for r, m in zip(self.right, self.misread, strict=True))

@@ -1,0 +1,127 @@
+"""How likely a sensed is at a place, known or never seen, under one hypothesis."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import exp, log
+
+from .chances import Chances
+from .hypothesis import Hypothesis, Key
+from .rates import crp_predictive
+from .records import NOWHERE, Place, SightCounts
+from .scheme import Reading, Sensed
+
+LEAST = 1e-300
+
+
+def log_likelihood(h: Hypothesis, number: int, sensed: Sensed) -> float:
+    """log P(sensed | the agent is in that place), by what was read there before."""
+    place, chances = h.places[number], h.chances
+    p = 1.0
+    for sensor, reading in enumerate(sensed.sights):
+        if reading is not None:
+            p *= sight_probability(chances, sensor, place.sights[sensor], reading)
+    for way, reading in enumerate(sensed.ways):
+        if reading is not None:
+            p *= reading_probability(chances, probability(way_odds(h, number, place, way)), reading)
+    return log(max(p, LEAST))
+
+
+def log_predictive(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> float:
+    """log P(sensed | a place never seen), by what places are like here.
+
+    Args:
+        h: the hypothesis.
+        sensed: what is sensed.
+        key: frame and position of the new place; None where it has none, or neighbours unknown.
+        back: the way back to where the agent came from, where that is known.
+        source: where it came from.
+    """
+    chances, p = h.chances, 1.0
+    for sensor, reading in enumerate(sensed.sights):
+        if reading is not None:
+            p *= new_sight_probability(h, sensor, reading)
+    for way, reading in enumerate(sensed.ways):
+        if reading is not None:
+            p *= reading_probability(chances, _expected_open(h, key, way, back, source), reading)
+    return log(max(p, LEAST))
+
+
+def sight_probability(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -> float:
+    """Σ_l P(reading | l) P(l | counts), where P(l | counts) ∝ exp(unit · counts[l])."""
+    misread, right = chances.misread[sensor], chances.right[sensor]
+    if isinstance(reading, int):
+        q = label_probability(chances, sensor, counts, reading)
+        return right * q + misread * (1.0 - q)
+    assert isinstance(reading, Mapping)
+    mean = sum(reading.values()) / max(chances.labels[sensor], len(reading))
+    known = sum(label_probability(chances, sensor, counts, label) * likelihood for label, likelihood in reading.items())
+    return (right - misread) * known + misread * chances.labels[sensor] * mean
+
+
+def label_probability(chances: Chances, sensor: int, counts: SightCounts, label: int) -> float:
+    """P(the place has this sight | what was read there), every label alike before."""
+    unit, most = chances.sight_unit[sensor], max(counts.values(), default=0.0)
+    others = max(chances.labels[sensor] - len(counts), 0) * exp(-unit * most)
+    total = others + sum(exp(unit * (count - most)) for count in counts.values())
+    return exp(unit * (counts.get(label, 0.0) - most)) / total
+
+
+def new_sight_probability(h: Hypothesis, sensor: int, reading: Reading) -> float:
+    """P(reading | a place never seen): what it shows is drawn by a Chinese restaurant process, and may be misread."""
+    chances, misread = h.chances, h.chances.misread[sensor]
+    if isinstance(reading, int):
+        alike = len(h.shown.get((sensor, reading)) or ())
+        drawn = crp_predictive(alike, h.kinds[sensor], h.size)
+        return (chances.right[sensor] - misread) * drawn + misread
+    assert isinstance(reading, Mapping)
+    return sum(new_sight_probability(h, sensor, label) * likelihood for label, likelihood in reading.items())
+
+
+def way_odds(h: Hypothesis, number: int, place: Place, way: int) -> float:
+    """Log odds that a way is open: what was read here, and from the other side of the door."""
+    chances, mine = h.chances, place.ways[way]
+    other = h.neighbour(place, way)
+    odds = (chances.odds if other == NOWHERE else chances.beside) + mine.net * chances.unit
+    if other != NOWHERE and h.scheme.inverse is not None:
+        odds += other_side(h, other, h.scheme.inverse[way], number)
+    return min(max(odds, -chances.limit), chances.limit)
+
+
+def other_side(h: Hypothesis, other: int, back: int, number: int) -> float:
+    """Log odds that what was read of the way back adds: P(it is the same door) is the rate `undone`.
+
+    log [ρ l + (1 - ρ) m] / [ρ + (1 - ρ) m],   l = exp(net · unit),   m = π l + 1 - π
+    """
+    way = h.places[other].ways[back]
+    if not way.net or (way.walks and way.to != number):
+        return 0.0
+    chances = h.chances
+    likelihood = exp(min(way.net * chances.unit, 50.0))
+    apart = (1.0 - chances.undone) * (chances.open * likelihood + 1.0 - chances.open)
+    return log((chances.undone * likelihood + apart) / (chances.undone + apart))
+
+
+def probability(odds: float) -> float:
+    """1 / (1 + exp(-odds))."""
+    return 1.0 / (1.0 + exp(-odds))
+
+
+def reading_probability(chances: Chances, p_open: float, reading: float) -> float:
+    """P(reading of a way | P(open)); a reading between 0 and 1 is a likelihood of being open."""
+    as_open = p_open * (1.0 - chances.wrong) + (1.0 - p_open) * chances.wrong
+    return reading * as_open + (1.0 - reading) * (1.0 - as_open)
+
+
+def _expected_open(h: Hypothesis, key: Key | None, way: int, back: int | None, source: int) -> float:
+    """P(open) of a way of a place never seen: the door of a neighbour, the way back, or what ways are like here."""
+    chances = h.chances
+    if way == back:
+        return chances.undone + (1.0 - chances.undone) * chances.open
+    if key is None or h.scheme.displacements is None or h.scheme.inverse is None:
+        return chances.open
+    position = tuple(x + d for x, d in zip(key[1], h.scheme.displacements[way], strict=True))
+    other = h.at.get(h.canonical(key[0], position))
+    if other is None:
+        return chances.open
+    return probability(chances.beside + other_side(h, other, h.scheme.inverse[way], NOWHERE))

@@ -1,0 +1,209 @@
+"""A hypothesis one step further: one branch carried out on its map."""
+
+from __future__ import annotations
+
+from math import log
+
+from .branches import Alternative
+from .chances import Chances
+from .evidence import label_probability, probability, sight_probability, way_odds
+from .hypothesis import Hypothesis
+from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
+from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
+from .scheme import Reading, Sensed
+
+
+def begin(h: Hypothesis, sensed: Sensed, time: int) -> None:
+    """Put the agent into the first place."""
+    _place_new(h, time, frame=time, position=h.scheme.origin)
+    _look(h, time, sensed, time)
+
+
+def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> None:
+    """Carry out `branch` on `h`, which becomes what the branch says."""
+    here, to = h.here, branch.to
+    _count_how(h, branch)
+    if branch.way == NOWHERE and not branch.moved:
+        _bump(h, branch, sensed)
+    if to == NOWHERE:
+        to = time
+        key = h.beyond(h.places[here], branch.way) if branch.charted else None
+        frame, position = key or (time, h.scheme.origin)
+        _place_new(h, to, frame=frame, position=position)
+    if branch.way != NOWHERE:
+        _walk(h, here, branch.way, to, branch)
+    _look(h, to, sensed, time)
+    h.weight = branch.weight
+
+
+def _place_new(h: Hypothesis, number: int, *, frame: int, position: tuple[int, ...]) -> None:
+    scheme = h.scheme
+    sights: tuple[SightCounts, ...] = ({},) * scheme.sensors
+    h.put(number, Place(sights, (Way(),) * scheme.count, frame, position, (), frozenset(), Share()))
+
+
+def _count_how(h: Hypothesis, branch: Alternative) -> None:
+    yes, no = h.counts.yes, h.counts.no
+    yes[MOVED] += branch.moved
+    no[MOVED] += 1.0 - branch.moved
+    if branch.moved:
+        return
+    yes[ASTRAY] += branch.astray
+    no[ASTRAY] += 1.0 - branch.astray
+    yes[FAILS] += branch.failed
+    no[FAILS] += branch.way != NOWHERE
+
+
+def _bump(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
+    """It stayed where it is: log P(stays | open) / P(stays | blocked), in readings."""
+    way, chances, place = sensed.action, h.chances, h.places[h.here]
+    if way is None:
+        return
+    given, lost = 1.0 - chances.astray, chances.astray * 0.5
+    worth = log((given * chances.fails + lost) / (given + lost)) / chances.unit
+    known = place.ways[way]
+    net = max(known.net + worth, -chances.most)
+    h.put(h.here, with_way(place, way, Way(net, known.open, known.blocked, known.walks, known.to)))
+
+
+def with_way(place: Place, index: int, way: Way) -> Place:
+    """The place with one of its ways replaced."""
+    ways = (*place.ways[:index], way, *place.ways[index + 1 :])
+    return Place(place.sights, ways, place.frame, place.position, place.recent, place.into, place.share)
+
+
+def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
+    place = h.places[here]
+    way = place.ways[index]
+    if way.to not in (NOWHERE, to):
+        _unlink(h, here, index, way)
+        way = Way(way.net, way.open, way.blocked)
+    elif way.to == NOWHERE:
+        _count_link(h, place, index, to, branch)
+    if not way.walks and h.scheme.inverse is None:
+        _count_returns(h, place, index, to)
+    net = max(way.net, h.chances.most)
+    walked = Way(net, way.open, way.blocked, way.walks + 1, to)
+    h.put(here, with_way(h.places[here], index, walked))
+    _arrive(h, here, index, to)
+    h.put(here, shared(h, here, h.places[here]))
+
+
+def _arrive(h: Hypothesis, here: int, index: int, to: int) -> None:
+    place = h.places[to]
+    into = place.into | {(here, index)}
+    ways = place.ways
+    if h.scheme.inverse is not None:
+        back = h.scheme.inverse[index]
+        if ways[back].to == NOWHERE:
+            ways = (*ways[:back], Way(*ways[back][:4], here), *ways[back + 1 :])
+        elif ways[back].walks:
+            led_back = ways[back].to == here
+            h.counts.yes[UNDONE] += led_back and (here, index) not in place.into
+            h.counts.no[UNDONE] += not led_back and (here, index) not in place.into
+    h.put(to, Place(place.sights, ways, place.frame, place.position, place.recent, into, place.share))
+
+
+def _unlink(h: Hypothesis, here: int, index: int, way: Way) -> None:
+    """A way leads elsewhere than was thought: its way back is not known from it any more."""
+    old = h.places.get(way.to)
+    if old is None:
+        return
+    ways = old.ways
+    if h.scheme.inverse is not None:
+        back = h.scheme.inverse[index]
+        if ways[back].to == here and not ways[back].walks:
+            ways = (*ways[:back], Way(*ways[back][:4], NOWHERE), *ways[back + 1 :])
+    into = old.into - {(here, index)}
+    h.put(way.to, Place(old.sights, ways, old.frame, old.position, old.recent, into, old.share))
+
+
+def _count_link(h: Hypothesis, place: Place, index: int, to: int, branch: Alternative) -> None:
+    h.links += 1
+    new = branch.to == NOWHERE
+    if h.scheme.displacements is None:
+        h.counts.yes[NEW] += new
+        h.counts.no[NEW] += not new
+        return
+    off = not branch.charted if new else h.beside(place, index) != to
+    h.counts.yes[ELSEWHERE] += off
+    h.counts.no[ELSEWHERE] += not off
+
+
+def _count_returns(h: Hypothesis, place: Place, index: int, to: int) -> None:
+    for source, by in place.into:
+        yes, no = h.undo.get((by, index), (0.0, 0.0))
+        h.undo[by, index] = (yes + 1.0, no) if source == to else (yes, no + 1.0)
+
+
+def _look(h: Hypothesis, number: int, sensed: Sensed, time: int) -> None:
+    place, chances = h.places[number], h.chances
+    sights = tuple(
+        seen(chances, sensor, counts, reading)
+        for sensor, (counts, reading) in enumerate(zip(place.sights, sensed.sights, strict=True))
+    )
+    ways = tuple(
+        way if reading is None else _read(h, way, reading) for way, reading in zip(place.ways, sensed.ways, strict=True)
+    )
+    recent = (*place.recent[-RECENT + 1 :], time)
+    looked = Place(sights, ways, place.frame, place.position, recent, place.into, place.share)
+    h.here = number
+    h.put(number, shared(h, number, looked))
+
+
+def seen(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -> SightCounts:
+    """The counts of a place after one more reading; a soft one counts by its posterior."""
+    if reading is None:
+        return counts
+    if isinstance(reading, int):
+        return {**counts, reading: counts.get(reading, 0.0) + 1.0}
+    z = sight_probability(chances, sensor, counts, reading)
+    more = dict(counts)
+    for label, likelihood in reading.items():
+        p = likelihood * label_probability(chances, sensor, counts, label) / z
+        if p > 1e-3:
+            more[label] = more.get(label, 0.0) + min(p, 1.0)
+    return more
+
+
+def _read(h: Hypothesis, way: Way, reading: float) -> Way:
+    """One more reading; where the ways that were read open last contradict all that was read before, it has changed."""
+    chances = h.chances
+    most = max(chances.most, 0.5)
+    net = min(max(way.net + 2.0 * reading - 1.0, -most), most)
+    opened, blocked = way.open + reading, way.blocked + 1.0 - reading
+    changed = net * (opened - blocked) < 0.0 and abs(opened - blocked) > 1.0
+    h.counts.yes[CHANGED] += changed
+    h.counts.no[CHANGED] += not changed
+    if changed:
+        opened, blocked = max(net, 0.0), max(-net, 0.0)
+    return Way(net, opened, blocked, way.walks, way.to)
+
+
+def shared(h: Hypothesis, number: int, place: Place) -> Place:
+    """The place with what it adds to the counts of the rates worked out anew.
+
+    A door between two places is shared by both: each adds half of it.
+    """
+    opened, blocked, wrong, right, beside, shut = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    chances = h.chances
+    for index, way in enumerate(place.ways):
+        odds = way_odds(h, number, place, index)
+        known = h.neighbour(place, index) != NOWHERE
+        if way.net or odds != (chances.beside if known else chances.odds):
+            p = probability(odds)
+            half = 0.5 if h.scheme.inverse is not None and known else 1.0
+            opened += half * p
+            blocked += half * (1.0 - p)
+            beside += half * p * known
+            shut += half * (1.0 - p) * known
+            wrong += p * way.blocked + (1.0 - p) * way.open
+            right += p * way.open + (1.0 - p) * way.blocked
+    misread, read = 0.0, 0.0
+    for sensor, counts in enumerate(place.sights):
+        for label, count in counts.items():
+            p = label_probability(h.chances, sensor, counts, label)
+            misread += count * (1.0 - p)
+            read += count * p
+    share = Share(opened, blocked, wrong, right, misread, read, beside, shut)
+    return Place(place.sights, place.ways, place.frame, place.position, place.recent, place.into, share)

@@ -1,0 +1,119 @@
+"""Folding: a hypothesis in which look-alikes are one place, at its weight plus what that explains better."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .extending import shared
+from .hypothesis import Hypothesis
+from .rates import ASTRAY, ELSEWHERE, MOVED, NEW, UNDONE
+from .records import NOWHERE, Place, Way
+from .uniting import ContradictionError, Union
+from .weighing import Links, scored
+
+
+def pairs(h: Hypothesis, *, most: int = 12) -> Iterator[tuple[int, int, bool]]:
+    """The place where the agent is with each that looks like it: (one, other, whether their chart closes on itself).
+
+    At most the `most` look-alikes that were seen last are named.
+    """
+    here = h.places[h.here]
+    alike = h.shown.get((0, here.label())) or ()
+    for other in [number for number in alike if number != h.here][-most:]:
+        yield h.here, other, False
+        if _may_close(h, here, h.places[other]):
+            yield h.here, other, True
+
+
+def _may_close(h: Hypothesis, one: Place, other: Place) -> bool:
+    return h.scheme.displacements is not None and one.frame == other.frame
+
+
+def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) -> Hypothesis | None:
+    """The hypothesis in which two places are one; None where its log weight is below `floor`."""
+    united = Union(h, floor=floor - h.weight - 12.0)
+    try:
+        united.unite(one, other, period=period)
+    except ContradictionError:
+        return None
+    gain, links = scored(united)
+    if h.weight + gain < floor:
+        return None
+    return _built(united, h.weight + gain, links)
+
+
+def _built(united: Union, weight: float, more: Links) -> Hypothesis:
+    h = united.h.fork()
+    h.chances = united.h.chances
+    h.weight, h.here = weight, united.find(h.here)
+    h.links += more.ways
+    touched = _neighbours(united)
+    records = {number: _resolved(united, number) for number in touched if united.find(number) == number}
+    for number in set(united.gone()):
+        h.remove(number)
+    _chart(united, h)
+    for number, place in records.items():
+        frame, position = united.charts.charted.get(number, (place.frame, place.position))
+        h.put(number, Place(place.sights, place.ways, frame, position, place.recent, place.into, place.share))
+    for number in records:
+        h.put(number, shared(h, number, h.places[number]))
+    _count(united, h, more)
+    return h
+
+
+def _count(united: Union, h: Hypothesis, more: Links) -> None:
+    counts, fewer = h.counts, len(set(united.gone()))
+    counts.yes[MOVED] += united.moved
+    counts.yes[ASTRAY] += united.astray
+    counts.no[ASTRAY] = max(counts.no[ASTRAY] - united.astray, 0.0)
+    counts.no[UNDONE] = max(counts.no[UNDONE] + more.crooked, 0.0)
+    if h.scheme.displacements is None:
+        counts.yes[NEW] = max(counts.yes[NEW] - fewer, 0.0)
+        counts.no[NEW] = float(max(h.links - h.size + 1, 0))
+        return
+    off = more.off + (united.charts.periods is not None)
+    counts.yes[ELSEWHERE] = max(counts.yes[ELSEWHERE] + off, 0.0)
+    counts.no[ELSEWHERE] = max(counts.no[ELSEWHERE] + more.ways - more.off, 0.0)
+
+
+def _chart(united: Union, h: Hypothesis) -> None:
+    """Lay places out anew whose chart has changed."""
+    if united.charts.periods is not None:
+        h.periods[united.charts.periods[0]] = united.charts.periods[1]
+    moved = [number for number in united.charts.charted if h.places.get(number) is not None]
+    for number in moved:
+        place = h.places[number]
+        if h.at.get((place.frame, place.position)) == number:
+            del h.at[place.frame, place.position]
+    for number in moved:
+        place = h.places[number]
+        frame, position = united.charts.charted[number]
+        h.at[frame, position] = number
+        h.put(number, Place(place.sights, place.ways, frame, position, place.recent, place.into, place.share))
+
+
+def _neighbours(united: Union) -> set[int]:
+    """The places that are united, and those that are linked with them."""
+    touched = united.members()
+    for number in list(touched):
+        place = united.h.places[number]
+        touched |= {way.to for way in place.ways if way.to != NOWHERE} | {source for source, _ in place.into}
+    return touched
+
+
+def _resolved(united: Union, number: int) -> Place:
+    """The record of a place with every number of a united place replaced by the first one's."""
+    place, find = united.view(number), united.find
+    most = united.h.chances.most
+    ways = [
+        Way(min(max(way.net, -most), most), *way[1:4], find(way.to) if way.to != NOWHERE else NOWHERE)
+        for way in place.ways
+    ]
+    into = frozenset((find(source), index) for source, index in place.into)
+    inverse = united.h.scheme.inverse
+    if inverse is not None:
+        for source, index in into:
+            back = inverse[index]
+            if ways[back].to == NOWHERE:
+                ways[back] = Way(*ways[back][:4], source)
+    return Place(place.sights, tuple(ways), place.frame, place.position, place.recent, into, place.share)

@@ -1,0 +1,145 @@
+"""One hypothesis about the map: which visits were to the same place, and what is known of each place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .chances import Chances
+from .layered import Layered
+from .periods import Periods, reduced
+from .rates import BESIDE, OPEN, SIGHT_MISREAD, WAY_MISREAD, RateCounts
+from .records import NOWHERE, Place, Position
+from .scheme import WayScheme
+
+Key = tuple[int, Position]
+Label = tuple[int, int]
+
+
+class Hypothesis:
+    """A map, where the agent is in it, and what its rates have counted.
+
+    Attributes:
+        scheme: what is known of ways beforehand.
+        places: by number; the number of a place is the time it was first visited.
+        at: the place at (frame, position).
+        shown: the places that most probably have a sight, by (sensor, label).
+        kinds: how many different sights they have, a sensor each.
+        counts: of the rates.
+        undo: (times it did, times it did not) that an action led back, by (action, action after it); counted where
+            it is not known beforehand which do.
+        periods: of the charts that close on themselves, by frame.
+        here: the place the agent is in.
+        weight: log posterior weight.
+        size, links: number of places, and of ways between them (both directions are one).
+        chances: the rates expected at this step.
+    """
+
+    __slots__ = (
+        "at", "chances", "counts", "here", "kinds", "links", "periods", "places", "scheme", "shown", "size", "undo",
+        "weight",
+    )  # fmt: skip
+
+    def __init__(self, scheme: WayScheme) -> None:
+        self.scheme = scheme
+        self.places: Layered[int, Place] = Layered()
+        self.at: Layered[Key, int] = Layered()
+        self.shown: Layered[Label, tuple[int, ...]] = Layered()
+        self.kinds = [0] * scheme.sensors
+        self.counts = RateCounts()
+        self.periods: dict[int, Periods] = {}
+        self.undo: dict[tuple[int, int], tuple[float, float]] = {}
+        self.here = NOWHERE
+        self.weight = 0.0
+        self.size = self.links = 0
+        self.chances = Chances(self.counts, [1] * scheme.sensors)
+
+    def fork(self) -> Hypothesis:
+        """One that goes its own way from now on."""
+        other = Hypothesis.__new__(Hypothesis)
+        other.scheme, other.chances = self.scheme, self.chances
+        other.places, other.at, other.shown = self.places.fork(), self.at.fork(), self.shown.fork()
+        other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
+        other.undo = self.undo.copy()
+        other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
+        return other
+
+    def settle(self) -> None:
+        """Make its entries the shared ones; only for the last one of its kind."""
+        self.places.settle()
+        self.at.settle()
+        self.shown.settle()
+
+    # -- reading -------------------------------------------------------------------------------------------
+
+    def beyond(self, place: Place, way: int) -> Key | None:
+        """The (frame, position) that a way leads to as far as poses say; None without poses."""
+        displacements = self.scheme.displacements
+        if displacements is None:
+            return None
+        return self.canonical(place.frame, [x + d for x, d in zip(place.position, displacements[way], strict=True)])
+
+    def canonical(self, frame: int, position: Sequence[int]) -> Key:
+        """The one key of a position, which may be many in a chart that closes on itself."""
+        periods = self.periods.get(frame)
+        return frame, reduced(position, periods) if periods else tuple(position)
+
+    def beside(self, place: Place, way: int) -> int:
+        """The place that poses say is beyond a way; `NOWHERE` if none was ever visited there."""
+        key = self.beyond(place, way)
+        found = None if key is None else self.at.get(key)
+        return NOWHERE if found is None else found
+
+    def neighbour(self, place: Place, way: int) -> int:
+        """The place beyond a way: where it was found to lead, else where poses say."""
+        to = place.ways[way].to
+        return to if to != NOWHERE else self.beside(place, way)
+
+    # -- writing -------------------------------------------------------------------------------------------
+
+    def put(self, number: int, place: Place) -> None:
+        """Replace the record of a place, and count what it shares anew."""
+        before = self.places.get(number)
+        if before is None:
+            self.size += 1
+            if place.position:
+                self.at[place.frame, place.position] = number
+        else:
+            self._count(before, -1.0)
+        self._count(place, 1.0)
+        for sensor in range(self.scheme.sensors):
+            was, now = -1 if before is None else before.label(sensor), place.label(sensor)
+            if was != now:
+                self._relabel(sensor, number, was, now)
+        self.places[number] = place
+
+    def remove(self, number: int) -> None:
+        """Take a place away."""
+        place = self.places[number]
+        self._count(place, -1.0)
+        for sensor in range(self.scheme.sensors):
+            self._relabel(sensor, number, place.label(sensor), -1)
+        if place.position and self.at.get((place.frame, place.position)) == number:
+            del self.at[place.frame, place.position]
+        del self.places[number]
+        self.size -= 1
+
+    def _count(self, place: Place, sign: float) -> None:
+        yes, no, share = self.counts.yes, self.counts.no, place.share
+        yes[OPEN] += sign * share.open
+        no[OPEN] += sign * share.blocked
+        yes[WAY_MISREAD] += sign * share.ways_wrong
+        no[WAY_MISREAD] += sign * share.ways_right
+        yes[SIGHT_MISREAD] += sign * share.sights_wrong
+        no[SIGHT_MISREAD] += sign * share.sights_right
+        yes[BESIDE] += sign * share.beside_open
+        no[BESIDE] += sign * share.beside_blocked
+
+    def _relabel(self, sensor: int, number: int, was: int, now: int) -> None:
+        if was >= 0:
+            rest = tuple(k for k in self.shown[sensor, was] if k != number)
+            self.shown[sensor, was] = rest
+            self.kinds[sensor] -= not rest
+        if now >= 0:
+            others = self.shown.get((sensor, now)) or ()
+            self.shown[sensor, now] = (*others, number)
+            self.kinds[sensor] += not others

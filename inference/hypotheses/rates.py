@@ -1,0 +1,115 @@
+"""The rates under which places are recognised: conjugate priors, their counts, and what is expected of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from math import exp, lgamma, log
+
+
+@dataclass(frozen=True, slots=True)
+class RatePrior:
+    """A rate that is learned: a mixture of Beta distributions before anything was counted.
+
+        P(rate) = Σ_k w_k Beta(yes_k, no_k),   P(k | counts) ∝ w_k B(yes_k + n_yes, no_k + n_no) / B(yes_k, no_k)
+
+    Attributes:
+        name: what it is called.
+        meaning: what it is the rate of.
+        parts: (w_k, yes_k, no_k); a second part lets a world be calm or not, as the counts will have it.
+    """
+
+    name: str
+    meaning: str
+    parts: tuple[tuple[float, float, float], ...]
+
+    def mean(self, yes: float, no: float) -> float:
+        """E[rate | counts]."""
+        if len(self.parts) == 1:
+            _, a, b = self.parts[0]
+            return (a + yes) / (a + b + yes + no)
+        logs = [log(w) + log_beta_evidence(a, b, yes, no) for w, a, b in self.parts]
+        most = max(logs)
+        weights = [exp(value - most) for value in logs]
+        means = [(a + yes) / (a + b + yes + no) for _, a, b in self.parts]
+        return sum(w * mean for w, mean in zip(weights, means, strict=True)) / sum(weights)
+
+    def log_evidence(self, yes: float, no: float) -> float:
+        """log ∫ rate^yes (1 - rate)^no P(rate) d rate."""
+        logs = [log(w) + log_beta_evidence(a, b, yes, no) for w, a, b in self.parts]
+        most = max(logs)
+        return most + log(sum(exp(value - most) for value in logs))
+
+
+def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
+    return RatePrior(name, meaning, ((1.0, yes, no),))
+
+
+CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.1, 0.5, 20.0))
+"""Moves hardly ever go wrong, or else they do often enough."""
+
+RATE_PRIORS = (
+    _beta("open", 1.0, 1.0, "a way is open"),
+    _beta("sight_misread", 0.5, 20.0, "a sight is read as another"),
+    _beta("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
+    RatePrior("fails", "a move through an open way fails", CALM_OR_NOT),
+    RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),
+    _beta("moved", 0.5, 500.0, "the agent is moved without a word"),
+    _beta("elsewhere", 0.25, 4.0, "a way leads where the pose does not say"),
+    _beta("undone", 20.0, 0.5, "the reverse of an action leads back"),
+    _beta("changed", 0.5, 500.0, "a way opens or closes between two looks"),
+    _beta("beside", 1.0, 1.0, "a way between places found beside each other is open"),
+    _beta("new", 1.0, 1.0, "a way that was never walked leads to a place never seen (without poses)"),
+)
+"""Every rate, in the order of `RateCounts`."""
+
+OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE, UNDONE, CHANGED, BESIDE, NEW = range(
+    len(RATE_PRIORS)
+)
+
+CONCENTRATIONS = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
+"""Concentrations of the Chinese restaurant process that are weighed against each other, evenly before any place."""
+
+
+class RateCounts:
+    """How often each rate was found true or false; soft counts are posterior probabilities."""
+
+    __slots__ = ("no", "yes")
+
+    def __init__(self, yes: Sequence[float] | None = None, no: Sequence[float] | None = None) -> None:
+        self.yes = list(yes) if yes is not None else [0.0] * len(RATE_PRIORS)
+        self.no = list(no) if no is not None else [0.0] * len(RATE_PRIORS)
+
+    def copy(self) -> RateCounts:
+        """Counts of their own."""
+        return RateCounts(self.yes, self.no)
+
+    def mean(self, rate: int) -> float:
+        """Posterior mean of one rate."""
+        return RATE_PRIORS[rate].mean(max(self.yes[rate], 0.0), max(self.no[rate], 0.0))
+
+
+def log_beta_evidence(a: float, b: float, yes: float, no: float) -> float:
+    """log B(a + yes, b + no) - log B(a, b)."""
+    before = lgamma(a) + lgamma(b) - lgamma(a + b)
+    return lgamma(a + yes) + lgamma(b + no) - lgamma(a + b + yes + no) - before
+
+
+@lru_cache(maxsize=1 << 16)
+def crp_evidence(kinds: int, places: int) -> float:
+    """log Σ_α P(α) α^kinds Γ(α) / Γ(α + places): the part of a seating's probability that depends on α.
+
+    With Σ_l lgamma(n_l) of the tables it is the Chinese restaurant process's log probability of the sights of
+    `places` places, of which `kinds` differ.
+    """
+    logs = [kinds * log(a) + lgamma(a) - lgamma(a + places) for a in CONCENTRATIONS]
+    most = max(logs)
+    return most + log(sum(exp(value - most) for value in logs) / len(logs))
+
+
+def crp_predictive(alike: int, kinds: int, places: int) -> float:
+    """P(the next new place shows a sight that `alike` places show); of a sight never shown where `alike` is zero."""
+    if alike:
+        return alike * exp(crp_evidence(kinds, places + 1) - crp_evidence(kinds, places))
+    return exp(crp_evidence(kinds + 1, places + 1) - crp_evidence(kinds, places))

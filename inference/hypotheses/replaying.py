@@ -1,0 +1,182 @@
+"""Places that were never there: steps replayed in the map as it is, and in the map without them."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Collection, Iterator
+from math import exp, log
+
+from .branches import leads
+from .evidence import log_likelihood, probability, way_odds
+from .hypothesis import Hypothesis
+from .records import NOWHERE, RECENT, Place, Way
+from .scheme import Sensed
+from .weighing import seating
+
+MARGIN = 3
+"""Steps before and after a visit that are replayed with it."""
+
+SELDOM = 4
+"""Visits from which on a place is not doubted any more."""
+
+
+class History:
+    """The last percepts, by time."""
+
+    def __init__(self, length: int = 512) -> None:
+        self._percepts: deque[Sensed] = deque(maxlen=length)
+        self.end = 0
+
+    def add(self, sensed: Sensed) -> None:
+        """Append one step."""
+        self._percepts.append(sensed)
+        self.end += 1
+
+    @property
+    def start(self) -> int:
+        """The time of the first step that is kept."""
+        return self.end - len(self._percepts)
+
+    def __getitem__(self, time: int) -> Sensed:
+        return self._percepts[time - self.start]
+
+
+def doubted(h: Hypothesis, number: int, history: History) -> set[int]:
+    """A place that was visited seldom and long ago and does not fit its neighbours, with those like it beside it."""
+    if not _seldom(h, number, history) or not _misfit(h, number):
+        return set()
+    found, queue = {number}, [number]
+    for one in queue:
+        for way in h.places[one].ways:
+            if way.to != NOWHERE and way.to not in found and _seldom(h, way.to, history):
+                found.add(way.to)
+                queue.append(way.to)
+    return found if h.here not in found and len(found) < h.size else set()
+
+
+def without(h: Hypothesis, numbers: Collection[int], history: History, *, floor: float) -> Hypothesis | None:
+    """The hypothesis in which some places never were; None where its log weight is below `floor`.
+
+    Its weight changes by what was to be explained of those places (their sights, their ways), and by how much better
+    or worse the steps around their visits are explained without them.
+    """
+    gain = _prior_cost(h, numbers)
+    for first, last in _spells(h, numbers, history):
+        gain += replayed(h, history, first, last, skip=numbers, start_without=numbers)
+        gain -= replayed(h, history, first, last, skip=(), start_without=numbers)
+    if h.weight + gain < floor:
+        return None
+    other = h.fork()
+    other.chances, other.weight = h.chances, h.weight + gain
+    _remove(other, numbers)
+    return other
+
+
+def replayed(
+    h: Hypothesis, history: History, first: int, last: int, *, skip: Collection[int], start_without: Collection[int]
+) -> float:
+    """log P(percepts first … last | the map), started anywhere but in the places `start_without`, never in `skip`."""
+    start = [k for k in h.places if k not in start_without]
+    logs = {k: log_likelihood(h, k, history[first]) for k in start}
+    most = max(logs.values())
+    belief = {k: exp(value - most) for k, value in logs.items() if value > most - 14.0}
+    total = sum(belief.values())
+    evidence = 0.0
+    for time in range(first + 1, last + 1):
+        sensed = history[time]
+        ahead = _predicted(h, {k: p / total for k, p in belief.items()}, sensed, skip)
+        belief = {k: p * exp(log_likelihood(h, k, sensed)) for k, p in ahead.items()}
+        total = sum(belief.values())
+        evidence += log(total)
+        belief = {k: p for k, p in belief.items() if p > 1e-6 * total}
+    return evidence
+
+
+def _predicted(h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Collection[int]) -> dict[int, float]:
+    """Where the agent is before the sensed, with silent moves to every place evenly."""
+    chances, action = h.chances, sensed.action
+    ahead: dict[int, float] = {k: chances.moved / h.size for k in h.places if k not in skip}
+    each = chances.astray / h.scheme.count
+    for number, p in belief.items():
+        p *= 1.0 - chances.moved
+        place, stays = h.places[number], each if action is not None else 1.0 - chances.astray
+        for way in range(h.scheme.count):
+            q = p * (1.0 - chances.astray if way == action else each)
+            opened = probability(way_odds(h, number, place, way)) * (1.0 - chances.fails)
+            lead = leads(h, number, place, way)
+            stays += (q / p) * (1.0 - opened)
+            if lead.to != NOWHERE and lead.to not in skip:
+                ahead[lead.to] = ahead.get(lead.to, 0.0) + q * opened * lead.sure
+        ahead[number] = ahead.get(number, 0.0) + p * stays
+    return ahead
+
+
+def _spells(h: Hypothesis, numbers: Collection[int], history: History) -> Iterator[tuple[int, int]]:
+    """(first, last) time of each run of visits, with a margin; runs that overlap are one."""
+    times = sorted(time for number in numbers for time in h.places[number].recent)
+    first = last = times[0]
+    for time in times[1:]:
+        if time > last + 2 * MARGIN:
+            yield max(first - MARGIN, history.start), min(last + MARGIN, history.end - 1)
+            first = time
+        last = time
+    yield max(first - MARGIN, history.start), min(last + MARGIN, history.end - 1)
+
+
+def _prior_cost(h: Hypothesis, numbers: Collection[int]) -> float:
+    """-log P(the places show what they show, and have the ways they have)."""
+    cost = seating(h, removed=numbers)
+    for number in numbers:
+        place = h.places[number]
+        for index, way in enumerate(place.ways):
+            if way.net:
+                p = probability(way_odds(h, number, place, index))
+                half = 0.5 if h.neighbour(place, index) != NOWHERE else 1.0
+                cost -= half * (p * log(h.chances.open) + (1.0 - p) * log(1.0 - h.chances.open))
+    return cost
+
+
+def _remove(h: Hypothesis, numbers: Collection[int]) -> None:
+    links: set[tuple[int, int]] = set()
+    touched: set[int] = set()
+    for number in numbers:
+        place = h.places[number]
+        links |= {(min(number, way.to), max(number, way.to)) for way in place.ways if way.to != NOWHERE}
+        touched |= {way.to for way in place.ways if way.to != NOWHERE} | {source for source, _ in place.into}
+    for number in touched - set(numbers):
+        place = h.places[number]
+        ways = tuple(
+            Way(way.net if way.open + way.blocked else 0.0, way.open, way.blocked) if way.to in numbers else way
+            for way in place.ways
+        )
+        into = frozenset(source for source in place.into if source[0] not in numbers)
+        h.put(number, Place(place.sights, ways, place.frame, place.position, place.recent, into, place.share))
+    for number in numbers:
+        h.remove(number)
+    h.links = max(h.links - len(links), 0)
+
+
+def _seldom(h: Hypothesis, number: int, history: History) -> bool:
+    recent = h.places[number].recent
+    return (
+        0 < len(recent) < min(SELDOM, RECENT)
+        and recent[0] >= history.start + MARGIN
+        and recent[-1] < history.end - h.size - 2 * MARGIN
+    )
+
+
+def _misfit(h: Hypothesis, number: int) -> bool:
+    """Whether nothing leads to the place, or one of its ways contradicts the place it leads to or the chart."""
+    place = h.places[number]
+    if not place.into:
+        return True
+    for index, way in enumerate(place.ways):
+        if way.to == NOWHERE:
+            continue
+        if h.scheme.displacements is not None and h.beside(place, index) != way.to:
+            return True
+        if h.scheme.inverse is not None:
+            back = h.places[way.to].ways[h.scheme.inverse[index]]
+            if back.net * way.net < 0.0 or (back.to not in (NOWHERE, number)):
+                return True
+    return False

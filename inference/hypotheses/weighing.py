@@ -1,0 +1,178 @@
+"""How much more probable a union makes what was found: sights, doors, links, and how many places there are."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from math import exp, lgamma, log
+from typing import NamedTuple
+
+from .chances import Chances
+from .hypothesis import Hypothesis
+from .rates import ELSEWHERE, NEW, RATE_PRIORS, UNDONE, crp_evidence
+from .records import NOWHERE
+from .uniting import Union
+
+INJECTIVE = log(0.05)
+"""Log prior odds of one more pair of places that one action leads from into the same place."""
+
+FACTOR = 0.6
+"""Share of the places, on average, among which a loop that closes had to choose while the map grew."""
+
+
+class Links(NamedTuple):
+    """Ways between places: how many, how many of them off the chart, that do not lead back, that meet."""
+
+    ways: int
+    off: int
+    crooked: int
+    meeting: int
+
+
+def scored(united: Union) -> tuple[float, Links]:
+    """log P(united) - log P(apart), readings and structure; and the difference in links."""
+    h = united.h
+    before, after = _links(united, apart=True), _links(united, apart=False)
+    more = Links(*(b - a for a, b in zip(before, after, strict=True)))
+    gain = united.sights - united.cost + _seating_gain(united)
+    gain += _doors(united, apart=False) - _doors(united, apart=True)
+    gain += _structure_gain(united, more)
+    gain += _gain(h, UNDONE, 0, more.crooked) + more.meeting * INJECTIVE
+    if united.charts.joined > 1:
+        gain -= log(h.size + 1.0)
+    return gain, more
+
+
+def _structure_gain(united: Union, more: Links) -> float:
+    h = united.h
+    fewer = len(set(united.gone()))
+    if h.scheme.displacements is not None:
+        off = more.off + (united.charts.periods is not None)
+        gain = _gain(h, ELSEWHERE, off, more.ways - more.off)
+        return gain - off * log(h.size - fewer + 1.0)
+    closed = max(h.links - h.size + 1, 0)
+    closed_after = max(h.links + more.ways - h.size + fewer + 1, 0)
+    gain = _gain(h, NEW, -fewer, closed_after - max(h.counts.no[NEW], 0.0))
+    return gain - closed_after * log(max(FACTOR * (h.size - fewer), 1.0)) + closed * log(max(FACTOR * h.size, 1.0))
+
+
+def _gain(h: Hypothesis, rate: int, yes: float, no: float) -> float:
+    """What more counts of a rate do to its evidence."""
+    prior, n_yes, n_no = RATE_PRIORS[rate], max(h.counts.yes[rate], 0.0), max(h.counts.no[rate], 0.0)
+    return prior.log_evidence(max(n_yes + yes, 0.0), max(n_no + no, 0.0)) - prior.log_evidence(n_yes, n_no)
+
+
+def _seating_gain(united: Union) -> float:
+    labels = [[p.label(sensor) for p in united.classes.values()] for sensor in range(united.h.scheme.sensors)]
+    return seating(united.h, removed=united.members(), added=labels)
+
+
+def seating(h: Hypothesis, *, removed: Collection[int], added: Sequence[Sequence[int]] | None = None) -> float:
+    """What it does to the Chinese restaurant processes that some places do not show what they show, and others do.
+
+    Args:
+        h: the hypothesis.
+        removed: places.
+        added: labels of places that are there instead, a sensor each.
+    """
+    gain = 0.0
+    for sensor in range(h.scheme.sensors):
+        new = added[sensor] if added else ()
+        tables: dict[int, int] = {}
+        for label, more in [*((h.places[k].label(sensor), -1) for k in removed), *((label, 1) for label in new)]:
+            tables[label] = tables.get(label, 0) + more
+        kinds = h.kinds[sensor]
+        after = kinds
+        for label, more in tables.items():
+            before = len(h.shown.get((sensor, label)) or ())
+            gain += lgamma(max(before + more, 1)) - lgamma(max(before, 1))
+            after += (before + more > 0) - (before > 0)
+        gain += crp_evidence(after, h.size - len(removed) + len(new)) - crp_evidence(kinds, h.size)
+    return gain
+
+
+def _links(united: Union, *, apart: bool) -> Links:
+    """The links of the places concerned, each once, before and after."""
+    h = united.h
+    find = _itself if apart else united.find
+    view = h.places.__getitem__ if apart else united.view
+    inverse = h.scheme.inverse
+    keys: dict[tuple[int, int], int] = {}
+    meeting = 0
+    for number in united.members() if apart else united.classes:
+        place = view(number)
+        for index, way in enumerate(place.ways):
+            if way.to != NOWHERE:
+                keys[number, index] = find(way.to)
+        sources = {(find(source), index) for source, index in place.into}
+        for source, index in sources:
+            keys[source, index] = number
+        meeting += len(sources) - len({index for _, index in sources})
+    count = off = crooked = 0
+    for (number, index), to in keys.items():
+        back = NOWHERE if inverse is None else view(to).ways[inverse[index]].to
+        mutual = back != NOWHERE and find(back) == number
+        if mutual and inverse is not None and (to, inverse[index]) in keys and (to, inverse[index]) < (number, index):
+            continue
+        count += 1
+        crooked += back != NOWHERE and not mutual
+        off += _off(united, number, index, to, apart=apart)
+    return Links(count, off, crooked, meeting if inverse is None else 0)
+
+
+def _off(united: Union, number: int, index: int, to: int, *, apart: bool) -> bool:
+    """Whether a link leads where the chart does not say."""
+    h = united.h
+    if h.scheme.displacements is None:
+        return False
+    if apart:
+        place, there = h.places[number], h.places[to]
+        return h.beyond(place, index) != (there.frame, there.position)
+    return united.charts.ahead(united.find(number), index) != united.key(to)
+
+
+def _doors(united: Union, *, apart: bool) -> float:
+    """log P(readings of the ways concerned), those of both sides of a door together."""
+    h, inverse = united.h, united.h.scheme.inverse
+    find = _itself if apart else united.find
+    view = h.places.__getitem__ if apart else united.view
+    done: set[tuple[int, int]] = set()
+    total = 0.0
+    for number in united.members() if apart else united.classes:
+        place = view(number)
+        for index, way in enumerate(place.ways):
+            if (number, index) in done:
+                continue
+            other = NOWHERE
+            if inverse is not None:
+                other = (
+                    find(way.to)
+                    if way.to != NOWHERE
+                    else h.beside(place, index)
+                    if apart
+                    else united.beside(number, index)
+                )
+            its = 0.0
+            if other != NOWHERE and inverse is not None:
+                back = view(other).ways[inverse[index]]
+                if back.to == NOWHERE or find(back.to) == number:
+                    its = back.net
+                    done.add((other, inverse[index]))
+            if way.net or its:
+                total += door_evidence(h.chances, way.net, its)
+    return total
+
+
+def door_evidence(chances: Chances, mine: float, its: float) -> float:
+    """log P(readings of both sides of a door), but for what is the same for an open and a blocked one.
+
+    ρ [π l m + (1 - π) / (l m)] + (1 - ρ) [π l + (1 - π) / l] [π m + (1 - π) / m],  l = exp(net · unit / 2)
+    """
+    p, half = chances.open, 0.5 * chances.unit
+    one, other = exp(mine * half), exp(its * half)
+    same = p * one * other + (1.0 - p) / (one * other)
+    apart = (p * one + (1.0 - p) / one) * (p * other + (1.0 - p) / other)
+    return log(chances.undone * same + (1.0 - chances.undone) * apart)
+
+
+def _itself(number: int) -> int:
+    return number

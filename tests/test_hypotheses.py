@@ -1,0 +1,204 @@
+"""Hypotheses about the map: mathematics against closed forms and sums, behaviour in small worlds."""
+
+from __future__ import annotations
+
+from itertools import product
+from math import exp, log
+
+import numpy as np
+import pytest
+from cogmap.inference.hypotheses import NOWHERE, Sensed, Tracker, WayScheme
+from cogmap.inference.hypotheses.branches import branches, leads
+from cogmap.inference.hypotheses.chances import Chances
+from cogmap.inference.hypotheses.evidence import probability, way_odds
+from cogmap.inference.hypotheses.layered import Layered
+from cogmap.inference.hypotheses.periods import reduced, with_period
+from cogmap.inference.hypotheses.pruning import signature
+from cogmap.inference.hypotheses.rates import RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
+from cogmap.inference.hypotheses.weighing import door_evidence
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
+from scipy.stats import beta
+
+STEPS = ((-1, 0), (1, 0), (0, -1), (0, 1))
+LATTICE = WayScheme(4, (1, 0, 3, 2), STEPS)
+UNPLACED = WayScheme(4, (1, 0, 3, 2))
+
+
+class Grid:
+    """A grid of sights, perhaps closed on itself, and where the agent is."""
+
+    def __init__(self, sights: list[list[int]], *, wrap: bool = False, at: tuple[int, int] = (0, 0)) -> None:
+        self.sights, self.wrap, self.at = sights, wrap, at
+
+    def beyond(self, way: int) -> tuple[int, int]:
+        r, c = (x + d for x, d in zip(self.at, STEPS[way], strict=True))
+        rows, columns = len(self.sights), len(self.sights[0])
+        if self.wrap:
+            return r % rows, c % columns
+        return (r, c) if 0 <= r < rows and 0 <= c < columns else self.at
+
+    def percept(self, action: int | None = None) -> Sensed:
+        if action is not None:
+            self.at = self.beyond(action)
+        open_ = tuple(float(self.beyond(way) != self.at) for way in range(4))
+        return Sensed((self.sights[self.at[0]][self.at[1]],), open_, action)
+
+
+def walk(tracker: Tracker, world: Grid, actions: str) -> None:
+    for action in ([None] if not tracker.hypotheses else []) + ["UDLR".index(a) for a in actions]:
+        percept = world.percept(action)
+        tracker.step(percept, [1 + max(max(row) for row in world.sights)])
+
+
+@given(st.lists(st.tuples(st.integers(-6, 6), st.integers(-6, 6)), min_size=1, max_size=3), st.data())
+@settings(max_examples=60)
+def test_positions_are_one_exactly_where_periods_lie_between_them(vectors, data):
+    periods = ()
+    for vector in vectors:
+        if any(vector):
+            periods = with_period(periods, vector)
+    position = data.draw(st.tuples(st.integers(-9, 9), st.integers(-9, 9)))
+    times = data.draw(st.tuples(*(st.integers(-3, 3) for _ in vectors)))
+    moved = tuple(x + sum(t * v[axis] for t, v in zip(times, vectors, strict=True)) for axis, x in enumerate(position))
+    assert reduced(moved, periods) == reduced(position, periods)
+    apart = tuple(a - b for a, b in zip(position, reduced(position, periods), strict=True))
+    if len(periods) == 2:
+        coefficients = np.linalg.solve(np.array(periods, dtype=float).T, np.array(apart, dtype=float))
+        assert np.allclose(coefficients, np.round(coefficients))
+
+
+@pytest.mark.parametrize("prior", RATE_PRIORS, ids=lambda prior: prior.name)
+@pytest.mark.parametrize(("yes", "no"), [(0.0, 0.0), (1.0, 7.0), (6.5, 30.0)])
+def test_what_is_expected_of_a_rate_is_the_integral_over_its_prior(prior, yes, no):
+    def density(x: float) -> float:
+        return sum(w * beta.pdf(x, a, b) for w, a, b in prior.parts)
+
+    def integral(more: float) -> float:
+        f = lambda x: density(x) * x ** (yes + more) * (1 - x) ** no  # noqa: E731
+        return sum(
+            quad(f, a, b, limit=200)[0] for a, b in [(0, 1e-4), (1e-4, 1e-2), (1e-2, 0.2), (0.2, 0.99), (0.99, 1)]
+        )
+
+    assert prior.log_evidence(yes, no) == pytest.approx(log(integral(0.0)), abs=1e-5)
+    assert prior.mean(yes, no) == pytest.approx(integral(1.0) / integral(0.0), rel=1e-4)
+
+
+@given(st.lists(st.integers(0, 4), min_size=1, max_size=12))
+def test_a_seating_is_as_probable_as_its_guests_one_after_the_other(labels):
+    from math import lgamma
+
+    total, tables = 0.0, {}
+    for places, label in enumerate(labels):
+        total += log(crp_predictive(tables.get(label, 0), len(tables), places))
+        tables[label] = tables.get(label, 0) + 1
+    closed = crp_evidence(len(tables), len(labels)) + sum(lgamma(n) for n in tables.values())
+    assert total == pytest.approx(closed, abs=1e-9)
+
+
+@given(st.floats(-4, 4), st.floats(-4, 4))
+def test_the_evidence_of_a_door_is_the_sum_over_its_states(mine, its):
+    chances = Chances(RateCounts(), [3])
+    p, same = chances.open, chances.undone
+    like = {True: lambda net: exp(net * chances.unit / 2), False: lambda net: exp(-net * chances.unit / 2)}
+    total = 0.0
+    for here, there in product((True, False), repeat=2):
+        prior = (p if here else 1 - p) * (same * (here == there) + (1 - same) * (p if there else 1 - p))
+        total += prior * like[here](mine) * like[there](its)
+    assert door_evidence(chances, mine, its) == pytest.approx(log(total), abs=1e-9)
+
+
+@pytest.mark.parametrize("scheme", [LATTICE, UNPLACED])
+def test_what_may_be_sensed_adds_up_to_one(scheme):
+    tracker = Tracker(scheme)
+    world = Grid([[0, 1], [2, 0]])
+    walk(tracker, world, "RDL")
+    h = tracker.best
+    total = 0.0
+    for label, flags in product(range(4), product((0.0, 1.0), repeat=4)):  # 3 is a label never met
+        h.chances = Chances(h.counts, [4], size=h.size)
+        found = branches(h, Sensed((label,), flags, 0), drop=200.0)
+        total += sum(exp(branch.weight - h.weight) for branch in found)
+    place = h.places[h.here]
+    left = 0.0  # ways that lead to known places off the chart, or without one, are left to folding
+    for way in range(4):
+        lead = leads(h, h.here, place, way)
+        given = 1.0 - h.chances.astray if way == 0 else h.chances.astray / 4
+        left += given * probability(way_odds(h, h.here, place, way)) * (1.0 - lead.sure - lead.new - lead.off)
+    assert total + left == pytest.approx(1.0, abs=2e-3)
+
+
+def test_a_fork_changes_apart_from_its_origin_and_settles():
+    one: Layered[str, int] = Layered({"a": 1, "b": 2})
+    other = one.fork()
+    other["a"], other["c"] = 3, 4
+    del other["b"]
+    assert (one["a"], one.get("b"), one.get("c")) == (1, 2, None)
+    assert sorted(other) == ["a", "c"]
+    other.settle()
+    assert (other["a"], other.get("b"), other["c"]) == (3, None, 4)
+
+
+def test_a_torus_is_found_to_close_on_itself():
+    tracker = Tracker(LATTICE)
+    world = Grid([[0, 1, 2], [3, 4, 5], [6, 7, 8]], wrap=True)
+    walk(tracker, world, "RRRDRRDRRDLU")
+    assert tracker.best.size == 9
+    assert len(next(iter(tracker.best.periods.values()))) == 2
+    assert tracker.certainty() > 0.95
+
+
+def test_places_are_recognised_without_poses():
+    tracker = Tracker(UNPLACED)
+    world = Grid([[0, 0, 1], [2, 0, 4], [3, 3, 3]])
+    walk(tracker, world, "RRDLLDRRLURULLDR")
+    assert tracker.best.size == 9
+    assert tracker.certainty() > 0.95
+
+
+def test_a_silent_move_joins_what_was_mapped_before_and_after():
+    tracker = Tracker(LATTICE)
+    world = Grid([[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11]])
+    walk(tracker, world, "RDL")
+    world.at = (2, 3)
+    walk(tracker, world, "ULLL")
+    best = tracker.best
+    assert len({best.places[k].frame for k in best.places}) == 1
+    assert best.size == 6  # 0 1 5 4 7 6, of which 5 and 4 were seen before and after
+
+
+def test_misread_sights_and_doors_invent_no_places():
+    rng, tracker = np.random.default_rng(3), Tracker(LATTICE)
+    world = Grid([[0, 1, 2], [3, 4, 5], [6, 7, 8]])
+    for step in range(150):
+        percept = world.percept(
+            None if step == 0 else int(rng.choice([w for w in range(4) if world.beyond(w) != world.at]))
+        )
+        sight = percept.sights[0] if rng.random() > 0.1 else int(rng.integers(9))
+        ways = tuple(abs(way - float(rng.random() < 0.1)) for way in percept.ways)  # type: ignore[operator]
+        tracker.step(Sensed((sight,), ways, percept.action), [9])
+    assert tracker.best.size == 9
+    assert tracker.best.counts.mean(2) == pytest.approx(0.1, abs=0.04)
+
+
+def test_hypotheses_that_say_the_same_have_one_signature():
+    tracker = Tracker(LATTICE)
+    walk(tracker, Grid([[0, 1], [2, 3]]), "RDLU")
+    fork = tracker.best.fork()
+    assert signature(fork) == signature(tracker.best)
+    place = fork.places[fork.here]
+    fork.put(
+        fork.here,
+        place._replace(ways=(place.ways[0]._replace(to=NOWHERE), *place.ways[1:3], place.ways[3]._replace(to=NOWHERE))),
+    )
+    assert signature(fork) != signature(tracker.best)
+
+
+def test_weights_add_up_to_one_at_every_step():
+    tracker = Tracker(LATTICE)
+    world = Grid([[0, 0, 1], [2, 0, 4], [3, 3, 3]])
+    walk(tracker, world, "")
+    for action in "RRDLDRULLURD":
+        walk(tracker, world, action)
+        assert sum(exp(h.weight) for h in tracker.hypotheses) == pytest.approx(1.0)
