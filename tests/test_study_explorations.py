@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.experiments import CSCG, ExploreRun, Row, explore
+from cogmap.experiments import CSCG, ExploreRun, Parts, Row, explore
 from cogmap.experiments.studies import Findings, Study, Table, run_study, study_named
 from cogmap.model import CogmapError
 from cogmap.worlds import MAZES
@@ -175,8 +175,8 @@ def test_rows_are_those_of_explore(name: str) -> None:
     rows = of(name, worlds=("3x3", "t_maze"), cap=200, **models).rows(2, seed=3)
     assert len({(row.world, row.agent, row.growth, row.run.seed) for row in rows}) == len(rows) == 12
     for row in rows:
-        own = {"settings": Settings(growth=row.growth)} if row.agent == "cogmap" else {}
-        assert row.run == explore(MAZES[row.world], row.run.seed, agent=row.agent, max_steps=200, **own)
+        agent = Parts(growth=row.growth) if row.agent == "cogmap" else row.agent
+        assert row.run == explore(MAZES[row.world], row.run.seed, agent=agent, max_steps=200)
 
 
 def test_the_protocols_are_those_of_the_paper() -> None:
