@@ -108,10 +108,15 @@ class Parts:
             return CscgAgent(motions, seed=seed, **told)
         return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
 
+    @property
+    def numbers_and_names(self) -> dict[str, Any]:
+        """The settings, and the parts that every world is met with, as files have always had them."""
+        names = {"policies": self.policies, "beam": MapGuided().beam, "choice": self.choice, "places": None}
+        return {**self.settings.to_dict(), **names}
+
     def to_dict(self, chart: Chart) -> dict[str, Any]:
         """What the agent goes by, as plain JSON values; nothing for a baseline that has no settings."""
         if self.agent == "cogmap":
             places = len(chart.places) if self.growth == StaticGrowth.name else None
-            names = {"policies": self.policies, "beam": MapGuided().beam, "choice": self.choice}
-            return {**self.settings.to_dict(), **names, "growth": self.growth, "places": places}
+            return {**self.numbers_and_names, "growth": self.growth, "places": places}
         return self.cscg.to_dict() if self.agent in CSCG else {}
