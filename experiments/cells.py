@@ -144,5 +144,5 @@ def _parts(options: Options, agent: str = "cogmap") -> Parts:
 
 def _made_with(options: Options) -> dict[str, Any]:
     parts, most = _parts(options), options.get("max_steps")
-    settings = parts.numbers_and_names  # each row has its own growth
-    return {"cogmap": version("cogmap"), "settings": settings, "cscg": parts.cscg.to_dict(), "max_steps": most}
+    own = {name: value for name, value in parts.to_dict().items() if name != "growth"}  # each row has its own
+    return {"cogmap": version("cogmap"), "settings": own, "cscg": parts.cscg.to_dict(), "max_steps": most}

@@ -21,6 +21,8 @@ CSCG = {
 }
 """The four variants of the paper: whether it is given its position, and how it moves."""
 
+_FIRST = ("look_ahead", "policies", "beam", "starts", "precision", "choice", "growth", "places")  # in files
+
 AGENTS = ("cogmap", "frontier", "random", *CSCG)
 
 
@@ -99,24 +101,15 @@ class Parts:
         if self.agent in CSCG:
             positions, how = CSCG[self.agent]
             seen = len(chart.places if positions else set(chart.sights.values()))
-            told: dict[str, Any] = {
-                "observations": seen,
-                "positions": positions,
-                "navigation": how,
-                "settings": self.cscg,
-            }
-            return CscgAgent(motions, seed=seed, **told)
+            told: dict[str, Any] = {"observations": seen, "positions": positions, "navigation": how}
+            return CscgAgent(motions, settings=self.cscg, seed=seed, **told)
         return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
 
-    @property
-    def numbers_and_names(self) -> dict[str, Any]:
-        """The settings, and the parts that every world is met with, as files have always had them."""
-        names = {"policies": self.policies, "beam": MapGuided().beam, "choice": self.choice, "places": None}
-        return {**self.settings.to_dict(), **names}
-
-    def to_dict(self, chart: Chart) -> dict[str, Any]:
+    def to_dict(self, chart: Chart | None = None) -> dict[str, Any]:
         """What the agent goes by, as plain JSON values; nothing for a baseline that has no settings."""
-        if self.agent == "cogmap":
-            places = len(chart.places) if self.growth == StaticGrowth.name else None
-            return {**self.numbers_and_names, "growth": self.growth, "places": places}
-        return self.cscg.to_dict() if self.agent in CSCG else {}
+        if self.agent != "cogmap":
+            return self.cscg.to_dict() if self.agent in CSCG else {}
+        places = len(chart.places) if chart is not None and self.growth == StaticGrowth.name else None
+        names = {"policies": self.policies, "beam": MapGuided().beam, "choice": self.choice, "growth": self.growth}
+        values = {**self.settings.to_dict(), **names, "places": places}
+        return {name: values[name] for name in dict.fromkeys((*_FIRST, *values))}
