@@ -11,7 +11,7 @@ from time import perf_counter
 from typing import Any, TypedDict, Unpack
 
 from ...model import make_folder, write_whole
-from .. import check_outputs
+from .. import Parts, check_outputs
 from .saving import made_with, write_report, write_study
 from .study import EVERYTHING, AnyStudy, studies
 from .tables import Table, Value
@@ -69,8 +69,10 @@ def run_study(study: AnyStudy, folder: Path | str, **options: Unpack[Options]) -
     with counter("drawing", 1):
         found = study.summarise(rows)
         again = _command(study, agents, seed, None if settings == study.settings else look_ahead)
-        head = {"study": study.name, "agents": agents, "seed": seed, "command": again, "settings": settings.to_dict()}
-        written = write_study(folder, study, found, {**head, **made_with()})
+        head = {"study": study.name, "agents": agents, "seed": seed, "command": again}
+        written = write_study(
+            folder, study, found, {**head, "settings": Parts(settings=settings).to_dict(), **made_with()}
+        )
     return Outcome(study, agents, perf_counter() - begin, found.lines, written, found.failed)
 
 
