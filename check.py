@@ -16,7 +16,8 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+import tomllib
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
@@ -24,7 +25,7 @@ LEAST_COVERAGE = 95  # per cent of the lines of the folders in [tool.coverage.ru
 JOBS = 2
 PROGRAMS = {"chromium": "chromium", "dot": "graphviz"}  # and the Debian packages that have them
 
-_LINT_IMPORTS = "from importlinter.cli import lint_imports_command; lint_imports_command()"
+_LINT_IMPORTS = "from importlinter.cli import lint_imports_command; lint_imports_command(['--no-cache'])"
 _COVERAGE = ("--cov", f"--cov-fail-under={LEAST_COVERAGE}", "--cov-report=term:skip-covered")
 CHECKS: dict[str, Sequence[str]] = {
     "format": ("-m", "ruff", "format", "--check", "."),
@@ -51,11 +52,24 @@ def install_programs() -> None:
             subprocess.run(["apt-get", "--quiet", *words], env=quiet, stdin=subprocess.DEVNULL)
 
 
-def run(name: str, arguments: Sequence[str], *, folder: Path = ROOT) -> bool:
+def laid_out(folder: Path) -> dict[str, str]:
+    """An environment in which the mapped folders are one package on disk, as import-linter reads it."""
+    mapped = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["setuptools"]["package-dir"]
+    package = folder / "cogmap"
+    package.mkdir()
+    for name, source in mapped.items():
+        if name.count(".") == 1:
+            (package / name.partition(".")[2]).symlink_to(ROOT / source)
+    for file in (ROOT / mapped["cogmap"]).iterdir():
+        (package / file.name).symlink_to(file)
+    return {**os.environ, "PYTHONPATH": str(folder)}
+
+
+def run(name: str, arguments: Sequence[str], *, folder: Path = ROOT, env: Mapping[str, str] | None = None) -> bool:
     """Run Python with `arguments` in `folder`, say how it went, and whether it went well."""
     print(f"\n== {name}", flush=True)
     begin = time.perf_counter()
-    code = subprocess.run([sys.executable, *arguments], cwd=folder, stdin=subprocess.DEVNULL).returncode
+    code = subprocess.run([sys.executable, *arguments], cwd=folder, env=env, stdin=subprocess.DEVNULL).returncode
     seconds = time.perf_counter() - begin
     print(f"== {name}: {'ok' if code == 0 else f'FAILED (exit code {code})'}, {seconds:.1f} s", flush=True)
     return code == 0
@@ -67,11 +81,11 @@ def main(for_pytest: Sequence[str] = ()) -> int:
     os.environ["NO_MKDOCS_2_WARNING"] = "1"
     if os.environ.get("CI"):
         install_programs()
-    results = {
-        name: run(name, (*arguments, *for_pytest) if name == "tests" else arguments)
-        for name, arguments in CHECKS.items()
-    }
+    results: dict[str, bool] = {}
     with tempfile.TemporaryDirectory() as folder:
+        for name, arguments in CHECKS.items():
+            env = laid_out(Path(folder)) if name == "import rules" else None
+            results[name] = run(name, (*arguments, *for_pytest) if name == "tests" else arguments, env=env)
         results["docs"] = run("docs", ("-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", f"{folder}/site"))
         for page, code in python_examples().items():
             name = f"example of {page}"

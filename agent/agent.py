@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from ..inference import DECISIVE, Belief, Rivals, advance, advance_rivals, begin, certain_of, rivals_of
 from ..model import (
-    GROWTHS,
     CogmapError,
     CognitiveMap,
     FactorGraph,
@@ -22,16 +21,16 @@ from ..model import (
     MotionSpec,
     Percept,
     Pose,
+    PredictedGrowth,
     Sensor,
     Slice,
-    StaticGrowth,
     Whereabouts,
     map_state,
     restore_map,
     take_slice,
     window_graph,
 )
-from ..planning import CHOICES, POLICIES, LocalCache, MapGuided, Plan, Planner, Preferences
+from ..planning import LocalCache, Plan, Planner, Preferences
 from . import storage
 from .mapper import Mapper
 from .packing import Arrays, pack, unpacked_state
@@ -96,9 +95,21 @@ class Agent:
         seed: Seed,
     ) -> None:
         """Put the parts together; the map is empty yet."""
+        sensors = None if sensors is None else list(sensors)
+        given = [("a sensor", sensor, Sensor) for sensor in sensors or ()]
+        parts: list[tuple[str, object, type]] = [
+            *given,
+            ("pose", pose, Pose),
+            ("growth", growth, Growth),
+            ("planner", planner, Planner),
+            ("settings", settings, Settings),
+        ]
+        for name, part, kind in parts:
+            if part is not None and not isinstance(part, kind):
+                raise CogmapError(f"agent: {name} is {part!r}; give an object, such as growth=PredictedGrowth()")
         self._settings = settings
-        self.growth = growth or _growth_of(settings)
-        self.planner = planner or _planner_of(settings)
+        self.growth = growth or PredictedGrowth()
+        self.planner = planner or Planner()
         self.map = CognitiveMap(
             Motions.of(motions),
             sensors=sensors,
@@ -268,7 +279,7 @@ class Agent:
     @property
     def parts(self) -> dict[str, Any]:
         """What it is made of, as plain JSON values: the kind of each part and its options."""
-        return parts_of(self.map, self.growth)
+        return parts_of(self.map, self.growth, self.planner)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write everything the agent knows to an npz file (JSON header, schema version, no pickle).
@@ -286,21 +297,21 @@ class Agent:
         sensors: Iterable[Sensor] | None = None,
         pose: Pose | None = None,
         growth: Growth | None = None,
+        planner: Planner | None = None,
     ) -> Agent:
         """The agent that `save` wrote; it walks on exactly as that one would have.
 
         Args:
             path: of the file.
             sensors: new ones like those that it was made with, where some are not of this library.
-            pose: the same.
-            growth: the same.
+            pose, growth, planner: the same.
 
         Raises:
             CogmapError: no such file, or it is no saved map, truncated, or from a newer schema.
         """
         header, arrays = storage.read(path)
         with storage.damage(path):
-            return cls.from_state(header, arrays, sensors=sensors, pose=pose, growth=growth)
+            return cls.from_state(header, arrays, sensors=sensors, pose=pose, growth=growth, planner=planner)
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
         """Everything that the next steps depend on: a JSON header and arrays (the trace is left out)."""
@@ -324,12 +335,13 @@ class Agent:
         sensors: Iterable[Sensor] | None = None,
         pose: Pose | None = None,
         growth: Growth | None = None,
+        planner: Planner | None = None,
     ) -> Agent:
         """The agent that `state` took apart; see `load`."""
         agent = cls.__new__(cls)
-        made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth)
+        made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth, planner=planner)
         motions = dict(zip(header["motions"]["names"], header["motions"]["displacements"], strict=True))
-        agent._assemble(motions, *made, None, Settings.from_dict(header["settings"]), None)
+        agent._assemble(motions, *made, Settings.from_dict(header["settings"]), None)
         restore_map(agent.map, header["map"], arrays)
         agent.rng.bit_generator.state = header["rng"]
         agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)
@@ -440,20 +452,6 @@ class Agent:
             sights[key] = max(sights.get(key, -np.inf), weight * value)
         places = {place: weight * value for place, value in preferences.places.items()}
         return Preferences(sights=sights, places=places, collision_cost=self.settings.collision_cost)
-
-
-def _growth_of(settings: Settings) -> Growth:
-    if settings.growth == "static":
-        if settings.places is None:
-            raise CogmapError("growth: static growth needs the size of the world; set Settings.places to 1 or more")
-        return StaticGrowth(settings.places)
-    return GROWTHS[settings.growth]()
-
-
-def _planner_of(settings: Settings) -> Planner:
-    beam = settings.policies == MapGuided.name
-    policies = MapGuided(beam=settings.beam) if beam else POLICIES[settings.policies]()
-    return Planner(policies=policies, choice=CHOICES[settings.choice]())
 
 
 def _generator(seed: Seed) -> np.random.Generator:

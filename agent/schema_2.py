@@ -11,10 +11,14 @@ from numpy.typing import NDArray
 
 from ..inference import Belief, Message, Rivals
 from ..model import Percept, Slice, Table, decode
+from ..planning import TERMS
 from .packing import Arrays, pack
 from .state import Choice, GivenPreferences, State
 
 _COLUMNS = {"position_of": "position_of.values", "place_at": "place_at.values", "visits": "visits.order"}
+_PARTS = ("places", "growth", "policies", "beam", "choice")
+"""Names among the settings that are parts now."""
+
 _SCALARS = ("evidence", "moved", "dropped", "examined", "doubt")
 
 
@@ -34,14 +38,20 @@ def from_schema_2(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]])
     new |= {"growth": growth, "changes.rows": rows, "changes.first": first.astype(np.int64)}
     new |= {"changes.marks": marks.astype(np.int64), "changes.undone": undone.astype(np.int64)}
     factors = {"displacement": {}, "transition": {}, "pose": {"positions": header["positions"]}, "open": {}}
-    options = {"places": settings["places"]} if settings["growth"] == "static" else {}
+    places, growth, policies, beam, choice = (settings.pop(name) for name in _PARTS)
+    options = {"places": places} if growth == "static" else {}
     made = {
         "motions": header["motions"],
         "settings": settings,
         "parts": {
             "sensors": [{"kind": "sight", "options": {}}, {"kind": "ways", "options": {}}],
             "pose": {"kind": "lattice", "options": {}},
-            "growth": {"kind": settings["growth"], "options": options},
+            "growth": {"kind": growth, "options": options},
+            "planner": {
+                "policies": {"kind": policies, "options": {"beam": beam} if policies == "map_guided" else {}},
+                "terms": [{"kind": term.name, "options": {}} for term in TERMS],
+                "choice": {"kind": choice, "options": {}},
+            },
         },
         "rng": header["rng"],
         "map": {"places": len(arrays["A_o.keys"]), "factors": {**factors, "sight": {"labels": header["sights"]}}},

@@ -1,4 +1,4 @@
-"""Every knob of the agent, with its symbol, default and source."""
+"""Every number of the agent, with its symbol, default and source."""
 
 from __future__ import annotations
 
@@ -8,29 +8,21 @@ from typing import Any, cast
 import numpy as np
 
 from ..inference import ENGINES, FilterOptions
-from ..model import GROWTHS, CogmapError, Priors, Rates, is_number
-from ..planning import CHOICES, POLICIES
+from ..model import CogmapError, Priors, Rates, is_number
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
-    """How an agent models, infers and plans.
+    """How an agent models, infers and plans, in numbers; its parts are objects that it is given besides.
 
     "Paper" below is de Tinguy, Verbelen and Dhoedt, "Learning dynamic cognitive map with autonomous navigation".
 
     Attributes:
         look_ahead: L, steps that policies look ahead (paper: 6 for its computation times, 13 or 14 in the Tolman
             maze).
-        policies: policy generator: `map_guided` (ours), or `exhaustive`, `self_avoiding`, `l_shaped` (paper's
-            appendix on policies).
-        beam: prefixes that `map_guided` keeps a level.
         starts: places that the agent may be at from which a plan sets out; belief in others is left out of the plan,
             and counted in `Plan.dropped`.
         precision: γ in P(π) = softmax(-γ G) (paper: 16).
-        choice: `outward` takes a policy of the least G, ties broken by the seed, and while it only explores one that is
-            nearly as good if that leads further out (ours); `best` the least G always; `sampled` draws from P(π).
-        growth: `predicted`, `observed` or `static` (paper's figure on internal map layouts: c, b, a).
-        places: number of places, for `static` growth only.
         rates: learning rates of the Dirichlet counts (paper's table of transition learning rates).
         forgetting: share of the evidence for transitions that fades each step (ours; off).
         certainty: Q(s) below which learning, growth and position wait (paper: 0.7).
@@ -48,13 +40,8 @@ class Settings:
     """
 
     look_ahead: int = 6
-    policies: str = "map_guided"
-    beam: int = 64
     starts: int = 32
     precision: float = 16.0
-    choice: str = "outward"
-    growth: str = "predicted"
-    places: int | None = None
     rates: Rates = field(default_factory=Rates)
     forgetting: float = 0.0
     certainty: float = 0.7
@@ -70,21 +57,16 @@ class Settings:
     def __post_init__(self) -> None:
         for name, kind in _NESTED.items():
             _check(isinstance(getattr(self, name), kind), name, getattr(self, name), f"use a {kind.__name__}")
-        for name in ("look_ahead", "beam", "starts", "window", "places"):
+        for name in ("look_ahead", "starts", "window"):
             value = getattr(self, name)
-            optional = name == "places" and value is None
-            _check(
-                optional or (isinstance(value, int | np.integer) and not isinstance(value, bool) and bool(value >= 1)),
-                name,
-                value,
-                "use a whole number of 1 or more",
-            )
+            whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+            _check(whole and bool(value >= 1), name, value, "use a whole number of 1 or more")
         for names, (least, most) in _RANGES.items():
             for name in names.split():
                 value = getattr(self, name)
                 _check(is_number(value, least, most), name, value, f"use a number from {least:g} to {most:g}")
-        for name, known in (("policies", POLICIES), ("growth", GROWTHS), ("engine", ENGINES), ("choice", CHOICES)):
-            _check(getattr(self, name) in known, name, getattr(self, name), f"choose one of {', '.join(known)}")
+        known = isinstance(self.engine, str) and self.engine in ENGINES  # pyright: ignore[reportUnnecessaryIsInstance]
+        _check(known, "engine", self.engine, f"choose one of {', '.join(ENGINES)}")
 
     def to_dict(self) -> dict[str, Any]:
         """The settings as plain JSON values."""

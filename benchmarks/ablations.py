@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from cogmap.agent import Settings
-from cogmap.experiments import explore_many, summarise
+from cogmap.experiments import Parts, explore_many, summarise
 from cogmap.inference.message import Belief, FilterOptions
 from cogmap.model import TABLE_RATES, TEXT_RATES, Priors
 from cogmap.planning import CHOICES
@@ -41,17 +41,18 @@ def _never_committed() -> Generator[None]:
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """One line of an ablation: settings, and what is changed in the code beside them."""
+    """One line of an ablation: settings and parts, and what is changed in the code beside them."""
 
     name: str
     settings: Settings = field(default_factory=Settings)
     change: Callable[[], Any] = _as_it_is
+    parts: dict[str, str] = field(default_factory=dict[str, str])
 
 
 DEFAULTS = Settings()
 ABLATIONS: dict[str, Sequence[Variant]] = {
-    "policies": [Variant(name, Settings(policies=name)) for name in ("map_guided", "self_avoiding", "l_shaped")],
-    "choice": [Variant(name, Settings(choice=name)) for name in CHOICES],
+    "policies": [Variant(name, parts={"policies": name}) for name in ("map_guided", "self_avoiding", "l_shaped")],
+    "choice": [Variant(name, parts={"choice": name}) for name in CHOICES],
     "discount": [Variant(f"{value:g}", Settings(discount=value)) for value in (1.0, 0.98, 0.95, 0.9, 0.8)],
     "sight": [Variant(f"{value:g}", Settings(priors=Priors(sight=value))) for value in (1e-9, 1e-6, 1e-3, 0.1)],
     "transition": [Variant(f"{value:g}", Settings(priors=Priors(transition=value))) for value in (0.02, 0.1, 0.5, 1.0)],
@@ -81,7 +82,9 @@ def maze_named(name: str) -> Maze:
 def measured(variant: Variant, maze: Maze, runs: int, max_steps: int) -> dict[str, Any]:
     """How many runs completed, and after how many steps."""
     with variant.change():
-        done = explore_many(maze, runs=runs, settings=variant.settings, max_steps=max_steps)
+        done = explore_many(
+            maze, runs=runs, agent=Parts(settings=variant.settings, **variant.parts), max_steps=max_steps
+        )
     summary = summarise(done, max_steps=max_steps)
     return {name: summary[name] for name in ("runs", "completed", "mean_steps_to_complete", "ratio")}
 

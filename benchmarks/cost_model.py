@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from cogmap.agent import Agent, Settings
 from cogmap.inference.filter import FEW
-from cogmap.planning import Choice, LocalModel, MapGuided
+from cogmap.planning import POLICIES, Choice, LocalModel, MapGuided, Planner
 from cogmap.planning import planner as planner_module
 from cogmap.planning.prefixes import Prefixes, prefixes_of
 from cogmap.worlds import MazeEnv, labyrinth, load_world
@@ -95,11 +95,12 @@ class Walk:
             observation, *_ = self.world.step(action)
 
 
-def exploring(seed: int, name: str = "4x4", steps: int = 60, **settings: Any) -> Walk:
+def exploring(seed: int, name: str = "4x4", steps: int = 60, *, policies: str = "map_guided", look_ahead: int) -> Walk:
     """A walk of an agent that knows nothing yet."""
     world = load_world(name)
     world.reset(seed=seed)
-    return Walk(Agent(world.motions, settings=Settings(**settings), seed=seed), world, steps)
+    planner, settings = Planner(policies=POLICIES[policies]()), Settings(look_ahead=look_ahead)
+    return Walk(Agent(world.motions, planner=planner, settings=settings, seed=seed), world, steps)
 
 
 def lost(seed: int, rooms: int = 3000) -> Walk:

@@ -6,15 +6,18 @@ from collections.abc import Iterator
 
 from cogmap.agent import Agent, Settings
 from cogmap.model import Whereabouts
+from cogmap.planning import Planner
 from cogmap.worlds import GRID, Maze, MazeEnv, Position
 
 
-def known_agent(maze: Maze, start: Position, *, settings: Settings | None = None, seed: int = 0) -> Agent:
+def known_agent(
+    maze: Maze, start: Position, *, settings: Settings | None = None, planner: Planner | None = None, seed: int = 0
+) -> Agent:
     """An agent with the map of one that has walked through all of the maze from `start`, depth first, and is back.
 
     It has taken no step yet: its first observation must be that of `start`.
     """
-    agent = Agent(GRID, settings=settings, seed=seed)
+    agent = Agent(GRID, planner=planner, settings=settings, seed=seed)
     map_, world = agent.map, MazeEnv(maze)
     world.reset(options={"start": start})
     place = 0

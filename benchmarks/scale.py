@@ -29,7 +29,7 @@ import numpy as np
 from cogmap.agent import Agent, Settings
 from cogmap.baselines import FrontierAgent
 from cogmap.experiments import Truth
-from cogmap.planning import CHOICES, LocalCache
+from cogmap.planning import CHOICES, LocalCache, Planner
 from cogmap.worlds import Maze, MazeEnv, Position, labyrinth
 from known import known_agent
 from machine import json_path, write_json
@@ -85,7 +85,7 @@ def for_a_while(most: int, seconds: float) -> Iterator[int]:
 def localised(rooms: int, asked: argparse.Namespace) -> Row:
     """Steps of an agent that knows everything and wants nothing."""
     maze, start = maze_of(rooms, asked, 0)
-    walk = Timed(known_agent(maze, start, settings=asked.settings), maze, start)
+    walk = Timed(known_agent(maze, start, settings=asked.settings, planner=asked.planner), maze, start)
     for _ in for_a_while(WARM + asked.steps, asked.seconds):
         walk.step()
     return walk.times(WARM)
@@ -94,7 +94,7 @@ def localised(rooms: int, asked: argparse.Namespace) -> Row:
 def goal(rooms: int, asked: argparse.Namespace) -> Row:
     """Steps towards the place that is furthest from the start."""
     maze, start = maze_of(rooms, asked, 0)
-    agent = known_agent(maze, start, settings=asked.settings)
+    agent = known_agent(maze, start, settings=asked.settings, planner=asked.planner)
     far = max(agent.map.places, key=lambda place: sum(map(abs, agent.map.position(place) or ())))
     agent.prefer(places={far: 2.0})
     walk = Timed(agent, maze, start)
@@ -110,7 +110,7 @@ def goal(rooms: int, asked: argparse.Namespace) -> Row:
 def lost(rooms: int, asked: argparse.Namespace) -> Row:
     """Steps from a silent move until the right place is believed at the certainty of the settings."""
     maze, start = maze_of(rooms, asked, 0)
-    agent = known_agent(maze, start, settings=asked.settings)
+    agent = known_agent(maze, start, settings=asked.settings, planner=asked.planner)
     walk, rng = Timed(agent, maze, start), np.random.default_rng(1)
     for _ in range(3):
         walk.step()
@@ -133,7 +133,7 @@ def lost(rooms: int, asked: argparse.Namespace) -> Row:
 def save(rooms: int, asked: argparse.Namespace) -> Row:
     """Seconds to save and to load, bytes a room in the file and in memory."""
     maze, start = maze_of(rooms, asked, 0)
-    agent = known_agent(maze, start, settings=asked.settings)
+    agent = known_agent(maze, start, settings=asked.settings, planner=asked.planner)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "map.npz"
         seconds = [_seconds(partial(agent.save, path)), _seconds(partial(Agent.load, path))]
@@ -170,7 +170,7 @@ def explore(rooms: int, asked: argparse.Namespace) -> Row:
     walks: list[Timed] = []
     for seed in range(asked.seed, asked.seed + (asked.mazes if rooms <= 1000 else 1)):
         maze, start = maze_of(rooms, asked, seed)
-        agent = Agent(MazeEnv.motions, settings=asked.settings, seed=seed)
+        agent = Agent(MazeEnv.motions, settings=asked.settings, planner=asked.planner, seed=seed)
         for name, walker in (("agent", agent), ("frontier", FrontierAgent(MazeEnv.motions, seed=seed))):
             walk = Timed(walker, maze, start)
             steps[name].append(_to_the_end(walk, maze, asked.seconds))
@@ -215,14 +215,15 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--seconds", type=float, default=300.0, help="for each part (each run of `explore`)")
     parser.add_argument("--gigabytes", type=float, default=4.0, help="of address space, at most")
     parser.add_argument("--look-ahead", type=int, default=6)
-    parser.add_argument("--choice", default=Settings().choice, choices=CHOICES, help="between policies")
+    parser.add_argument("--choice", default="outward", choices=CHOICES, help="between policies")
     parser.add_argument("--seed", type=int, default=0, help="of the first maze of `explore`")
     parser.add_argument("--profile", action="store_true", help="print the functions that take longest")
     parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     if asked.seed < 0:
         parser.error(f"--seed is {asked.seed}; give 0 or more")
-    asked.settings = Settings(look_ahead=asked.look_ahead, choice=asked.choice)
+    asked.settings = Settings(look_ahead=asked.look_ahead)
+    asked.planner = Planner(choice=CHOICES[asked.choice]())
     return asked
 
 

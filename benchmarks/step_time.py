@@ -23,20 +23,23 @@ from typing import Any
 
 from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError
-from cogmap.planning import POLICIES
+from cogmap.planning import POLICIES, Planner
 from cogmap.worlds import load_world
 from machine import json_path, write_json
 
 IMPORT = "import time; t = time.perf_counter(); import cogmap.agent; print(time.perf_counter() - t)"
 
 
-def walk(world_name: str, steps: int, settings: Settings, seed: int, seconds: float = math.inf) -> tuple[float, int]:
+def walk(
+    world_name: str, steps: int, settings: Settings, policies: str, seed: int, seconds: float = math.inf
+) -> tuple[float, int]:
     """Seconds that `steps` steps of a new agent take, and how many of them were made before the time was over."""
     world = load_world(world_name)
     observation, _ = world.reset(seed=seed)
     made, end = 0, time.perf_counter() + seconds
     begin = time.process_time()
-    agent = Agent(world.motions, settings=settings, seed=seed)
+    planner = Planner(policies=POLICIES[policies]())
+    agent = Agent(world.motions, planner=planner, settings=settings, seed=seed)
     while made < steps and (
         made == 0 or time.perf_counter() < end
     ):  # asking for processor time is slow on some machines
@@ -45,13 +48,13 @@ def walk(world_name: str, steps: int, settings: Settings, seed: int, seconds: fl
     return (time.process_time() - begin) * steps / made, made
 
 
-def timed(world: str, steps: int, settings: Settings, runs: int, limit: float) -> dict[str, Any]:
+def timed(world: str, steps: int, settings: Settings, policies: str, runs: int, limit: float) -> dict[str, Any]:
     """Seconds of each run (run i has seed i), and what they come to."""
-    walks = [walk(world, steps, settings, seed, limit) for seed in range(runs)]
+    walks = [walk(world, steps, settings, policies, seed, limit) for seed in range(runs)]
     seconds = [spent for spent, _ in walks]
     spread = {"first": seconds[0], "median": median(seconds), "min": min(seconds)}
     return {
-        "policies": settings.policies,
+        "policies": policies,
         "look_ahead": settings.look_ahead,
         **{name: round(value, 4) for name, value in spread.items()},
         "runs": [round(x, 4) for x in seconds],
@@ -104,8 +107,7 @@ def main(given: Sequence[str] | None = None) -> None:
     asked = _arguments(given)
     names = list(POLICIES) if "all" in asked.policies else asked.policies
     if asked.peak_only:
-        settings = Settings(look_ahead=asked.look_ahead[0], policies=names[0])
-        walk(asked.world, asked.steps, settings, 0, asked.seconds)
+        walk(asked.world, asked.steps, Settings(look_ahead=asked.look_ahead[0]), names[0], 0, asked.seconds)
         print(_own_peak())
         return
     result: dict[str, Any] = {"world": asked.world, "steps": asked.steps}
@@ -119,7 +121,7 @@ def main(given: Sequence[str] | None = None) -> None:
 def _row(asked: argparse.Namespace, name: str, look_ahead: int) -> list[dict[str, Any]]:
     """One line of the table; none where the policies are too many."""
     try:
-        row = timed(asked.world, asked.steps, Settings(look_ahead=look_ahead, policies=name), asked.runs, asked.seconds)
+        row = timed(asked.world, asked.steps, Settings(look_ahead=look_ahead), name, asked.runs, asked.seconds)
     except CogmapError as error:
         print(f"{look_ahead:4}  {name:14} {error}", flush=True)
         return []

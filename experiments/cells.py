@@ -139,10 +139,10 @@ def _checked(cells: Sequence[Cell], options: Options) -> dict[Key, Cell]:
 
 
 def _parts(options: Options, agent: str = "cogmap") -> Parts:
-    return Parts(agent, options.get("settings") or Settings(), options.get("cscg") or CscgSettings())
+    return Parts(agent, options.get("settings") or Settings(), cscg=options.get("cscg") or CscgSettings())
 
 
 def _made_with(options: Options) -> dict[str, Any]:
     parts, most = _parts(options), options.get("max_steps")
-    own = {name: value for name, value in parts.settings.to_dict().items() if name != "growth"}  # each row has its own
+    own = {name: value for name, value in parts.to_dict().items() if name != "growth"}  # each row has its own
     return {"cogmap": version("cogmap"), "settings": own, "cscg": parts.cscg.to_dict(), "max_steps": most}

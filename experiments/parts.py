@@ -9,7 +9,8 @@ import numpy as np
 
 from ..agent import Agent, Settings
 from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
-from ..model import CogmapError
+from ..model import GROWTHS, CogmapError, StaticGrowth
+from ..planning import CHOICES, POLICIES, MapGuided, Planner
 from ..worlds import Chart, HasChart, World, offered
 
 CSCG = {
@@ -19,6 +20,8 @@ CSCG = {
     "cscg_pose_random": (True, "random"),
 }
 """The four variants of the paper: whether it is given its position, and how it moves."""
+
+_FIRST = ("look_ahead", "policies", "beam", "starts", "precision", "choice", "growth", "places")  # in files
 
 AGENTS = ("cogmap", "frontier", "random", *CSCG)
 
@@ -46,29 +49,39 @@ class Parts:
 
     Attributes:
         agent: one of `AGENTS`.
-        settings: of `cogmap`; static growth gets the number of places where none is given.
+        settings: of `cogmap`.
+        growth: one of `GROWTHS`; static growth is told how many places the world has.
+        policies: one of `POLICIES`.
+        choice: one of `CHOICES`.
         cscg: of the clone-structured graphs.
 
     Raises:
-        CogmapError: no agent has this name.
+        CogmapError: no agent, or no part, has this name.
     """
 
     agent: str = "cogmap"
     settings: Settings = field(default_factory=Settings)
+    growth: str = "predicted"
+    policies: str = "map_guided"
+    choice: str = "outward"
     cscg: CscgSettings = field(default_factory=CscgSettings)
 
     def __post_init__(self) -> None:
         if self.agent not in AGENTS:
             raise CogmapError(f"no agent is called {self.agent!r}; choose one of {', '.join(AGENTS)}")
+        for name, known in (("growth", GROWTHS), ("policies", POLICIES), ("choice", CHOICES)):
+            if (value := getattr(self, name)) not in known:
+                raise CogmapError(f"settings: {name} is {value!r}; choose one of {', '.join(known)}")
 
     @classmethod
     def named(cls, agent: str = "cogmap", *, growth: str = "predicted", **options: Any) -> Self:
         """From the options of the command line: growth, policies, look_ahead, engine."""
-        return cls(agent, Settings(growth=growth, **options))
+        policies = options.pop("policies", "map_guided")
+        return cls(agent, Settings(**options), growth=growth, policies=policies)
 
     def growing(self, growth: str) -> Self:
         """The same with another growth."""
-        return replace(self, settings=replace(self.settings, growth=growth))
+        return replace(self, growth=growth)
 
     def make(self, world: Any, seed: np.random.SeedSequence) -> Any:
         """A new agent that knows of the world only what its kind must be told.
@@ -81,25 +94,22 @@ class Parts:
         motions = offered(world, World, "an agent").motions
         chart = offered(world, HasChart, f"agent {self.agent}").chart
         if self.agent == "cogmap":
-            return Agent(motions, settings=self._fitted(chart), seed=int(seed.generate_state(1)[0]))
+            growth = StaticGrowth(len(chart.places)) if self.growth == StaticGrowth.name else GROWTHS[self.growth]()
+            planner = Planner(policies=POLICIES[self.policies](), choice=CHOICES[self.choice]())
+            number = int(seed.generate_state(1)[0])
+            return Agent(motions, growth=growth, planner=planner, settings=self.settings, seed=number)
         if self.agent in CSCG:
             positions, how = CSCG[self.agent]
             seen = len(chart.places if positions else set(chart.sights.values()))
-            told: dict[str, Any] = {
-                "observations": seen,
-                "positions": positions,
-                "navigation": how,
-                "settings": self.cscg,
-            }
-            return CscgAgent(motions, seed=seed, **told)
+            told: dict[str, Any] = {"observations": seen, "positions": positions, "navigation": how}
+            return CscgAgent(motions, settings=self.cscg, seed=seed, **told)
         return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
 
-    def to_dict(self, chart: Chart) -> dict[str, Any]:
-        """The settings that the agent goes by, as plain JSON values; none for a baseline that has none."""
-        if self.agent == "cogmap":
-            return self._fitted(chart).to_dict()
-        return self.cscg.to_dict() if self.agent in CSCG else {}
-
-    def _fitted(self, chart: Chart) -> Settings:
-        unsaid = self.settings.growth == "static" and self.settings.places is None
-        return replace(self.settings, places=len(chart.places)) if unsaid else self.settings
+    def to_dict(self, chart: Chart | None = None) -> dict[str, Any]:
+        """What the agent goes by, as plain JSON values; nothing for a baseline that has no settings."""
+        if self.agent != "cogmap":
+            return self.cscg.to_dict() if self.agent in CSCG else {}
+        places = len(chart.places) if chart is not None and self.growth == StaticGrowth.name else None
+        names = {"policies": self.policies, "beam": MapGuided().beam, "choice": self.choice, "growth": self.growth}
+        values = {**self.settings.to_dict(), **names, "places": places}
+        return {name: values[name] for name in dict.fromkeys((*_FIRST, *values))}

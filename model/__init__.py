@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .changes import STEPS, Branch, Change, Changes, Entry, Store
 from .cognitive_map import CognitiveMap
+from .column import Column
 from .dirichlet import EMPTY, SparseDirichlet
 from .distinct import distinct
 from .domain import Domain
@@ -102,6 +103,7 @@ __all__ = [
     "Changes",
     "CogmapError",
     "CognitiveMap",
+    "Column",
     "ConditionalTable",
     "Context",
     "Displacement",

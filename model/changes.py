@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
@@ -33,6 +33,10 @@ class Store(Protocol):
 
     def state(self) -> dict[str, NDArray[Any]]:
         """Copies of the arrays that hold it, for saving."""
+        ...
+
+    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over what `state` gave of one with as many rows."""
         ...
 
     def value(self, numbers: Sequence[float]) -> Any:

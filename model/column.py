@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import inf
 from typing import Any
 
@@ -62,7 +62,7 @@ class Column:
         self._array[self._length - 1] = value
         return self._length - 1
 
-    def set(self, where: int | tuple[int, int], value: int) -> None:
+    def set(self, where: int | tuple[int, int], value: float) -> None:
         """Write one cell."""
         old = self._array.item(where)
         if old != value:
@@ -70,13 +70,13 @@ class Column:
             if self._changes is not None:
                 self._changes.append(Change(self, where, old, value))
 
-    def put(self, where: int | tuple[int, int], value: int) -> None:
+    def put(self, where: int | tuple[int, int], value: float) -> None:
         """Write one cell without telling the log."""
         self._array[where] = value
 
-    def value(self, numbers: Sequence[float]) -> int:
+    def value(self, numbers: Sequence[float]) -> float:
         """A number of a cell, from a file."""
-        return int(numbers[0])
+        return self._array.dtype.type(numbers[0]).item()
 
     def touched(self, where: int | tuple[int, int]) -> Iterable[int]:
         """The row, where rows are places."""
@@ -86,13 +86,16 @@ class Column:
         """A copy of the rows in use, for saving."""
         return {"values": self.values.copy()}
 
-    def restore(self, values: NDArray[Any], *, least: float = -inf, bound: float = inf) -> None:
-        """Take over the values of as many rows as it has, each in [least, bound).
+    def restore(self, state: Mapping[str, NDArray[Any]], *, least: float = -inf, bound: float = inf) -> None:
+        """Take over what `state` returned of a column of as many rows, each value in [least, bound).
 
         Raises:
             CogmapError: they are others.
         """
-        fits = values.shape == self.values.shape and values.dtype.kind in "ib"
+        values = state["values"]
+        fits = values.shape == self.values.shape and values.dtype.kind in (
+            "f" if self.values.dtype.kind == "f" else "ib"
+        )
         if not (fits and bool(((values >= least) & (values < bound)).all())):
             raise CogmapError(
                 f"map: {self.name} does not fit {len(self)} rows of {least:g} to {bound:g}; save it again"

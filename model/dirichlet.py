@@ -292,8 +292,3 @@ class SparseDirichlet:
 def _within(numbers: NDArray[Any], least: float, bound: float) -> bool:
     """Whether all numbers are in [least, bound); a NaN is not."""
     return numbers.dtype.kind in "ibf" and bool(((numbers >= least) & (numbers < bound)).all())
-
-
-def parts_of(name: str, arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """The state of the table of that name among the arrays of a file."""
-    return {part: arrays[f"{name}.{part}"] for part in ("keys", "prior", "evidence")}

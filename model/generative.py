@@ -226,20 +226,19 @@ class GenerativeModel:
 
     def put(self, where: int, value: bool) -> None:
         """Append the next place, or drop the last one, without telling the log."""
-        self._resize(where + value)
+        self.resize(where + value)
         for factor in self.factors:
             factor.grow(self._size)
 
-    def _resize(self, places: int) -> None:
+    def resize(self, places: int) -> None:
+        """Have so many places; its factors have been grown already."""
         self._size = places
         self.visits.resize(places)
         if not self.sights_sensed:
             self.A_o.resize(places)
 
-    def restore(self, places: int, visits: Ints) -> None:
-        """Have so many places, these of them visited; its factors have been restored already."""
-        self._resize(places)
-        self.visits.restore(visits)
+    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Nothing: see `state`."""
 
     def state(self) -> dict[str, NDArray[Any]]:
         """Nothing: how many places there are is known from the factors."""

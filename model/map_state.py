@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .change_rows import change_arrays, restore_changes
 from .domain import Domain
 from .errors import CogmapError
+from .factors import parts_of
 from .growth_event import KINDS, GrowthEvent
 from .readable_map import ReadableMap
 
@@ -38,7 +39,8 @@ def restore_map(map_: ReadableMap, header: Mapping[str, Any], arrays: Mapping[st
     """
     for factor in map_.factors:
         factor.restore(header["factors"][factor.name], arrays, header["places"])
-    map_.restore(header["places"], arrays["visits.order"])
+    map_.resize(header["places"])
+    map_.visits.restore(parts_of(map_.visits, arrays))
     growth = arrays["growth"]
     if (
         growth.ndim != 2

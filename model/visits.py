@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,16 +62,17 @@ class Visits:
         """The places in the order of their first visit, for saving."""
         return {"order": self.order.values.copy()}
 
-    def restore(self, order: NDArray[np.int64]) -> None:
-        """Take over the visited ones among the places that there are.
+    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over which ones of the places that there are were visited.
 
         Raises:
             CogmapError: one is none, or stands twice.
         """
+        order = state["order"]
         fits = order.ndim == 1 and order.dtype.kind == "i" and len(np.unique(order)) == len(order)
         if not (fits and bool(((order >= 0) & (order < len(self.visited))).all())):
             raise CogmapError(f"map: visits does not fit {len(self.visited)} places; save it again")
         self.order.resize(len(order))
-        self.order.restore(order)
+        self.order.values[:] = order
         self.first.values[order] = np.arange(len(order))
         self.visited.values[order] = True

@@ -8,9 +8,10 @@ from itertools import cycle
 from typing import Any
 
 import networkx as nx
-from cogmap.agent import Agent, Settings
+from cogmap.agent import Agent
 from cogmap.views import Recorder, Recording
 from cogmap.worlds import MazeEnv, load_world
+from parts import agent_with
 
 After = Callable[[Agent], None]
 
@@ -26,7 +27,7 @@ def recorded(
     **settings: Any,
 ) -> Recording:
     """A walk in which things happen before the steps named; `after` is called after every step."""
-    agent = Agent(world.motions, settings=Settings(**{"look_ahead": 3, **settings}), seed=seed)
+    agent = agent_with(world.motions, seed=seed, **{"look_ahead": 3, **settings})
     recorder = Recorder(world.chart if sights else None, title=world.maze.name)
     world.reset(seed=seed)
     for step in range(steps):

@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.agent import Agent, Settings
+from cogmap.agent import Agent
 from cogmap.inference import FilterOptions
 from cogmap.planning import TERMS, Policies, evaluate_plain, local_model
 from cogmap.worlds import MazeEnv, labyrinth, load_world
+from parts import agent_with
 from walks import walk
 
 MANY = 1 << 30
@@ -45,7 +46,7 @@ def assert_plain(agent: Agent) -> None:
 def test_with_nothing_dropped_all_is_plain(name: str, policies: str) -> None:
     options: dict[str, Any] = {"beam": MANY, "starts": MANY, "filter": FilterOptions(support=0.0)}
     world = load_world(name)
-    agent = Agent(world.motions, settings=Settings(look_ahead=3, policies=policies, **options), seed=1)
+    agent = agent_with(world.motions, look_ahead=3, policies=policies, **options, seed=1)
     entered = 0
     for step, _ in enumerate(walk(world, agent, 26, seed=1, displace_every=9)):
         if len(agent.map.visited_places) == entered:  # else it has committed itself to a new place
@@ -58,7 +59,7 @@ def test_with_nothing_dropped_all_is_plain(name: str, policies: str) -> None:
 
 def test_what_is_dropped_is_told() -> None:
     world = MazeEnv(labyrinth(60, sights=2, rng=np.random.default_rng(0)))
-    agent = Agent(world.motions, settings=Settings(look_ahead=3, beam=1, starts=1), seed=0)
+    agent = agent_with(world.motions, look_ahead=3, beam=1, starts=1)
     told: dict[str, list[float]] = {"support": [], "beam": [], "starts": []}
     for _ in walk(world, agent, 150, seed=0, displace_every=25):
         told["support"].append(agent.belief.dropped)

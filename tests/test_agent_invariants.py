@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.agent import Agent, Settings
+from cogmap.agent import Agent
 from cogmap.worlds import MazeEnv
 from cogmap.worlds.generate import random_maze
+from parts import agent_with
 from walks import assert_agent_is_sound
 
 WALKS, BATCHES, STEPS = 200, 10, 18
@@ -18,13 +19,13 @@ def drawn(rng: np.random.Generator) -> tuple[MazeEnv, Agent]:
     """A maze of 2 to 10 rooms, and an agent whose evidence fades in one walk of three."""
     sights = [None, 2, 3, 5][int(rng.integers(4))]
     world = MazeEnv(random_maze(int(rng.integers(2, 11)), sights=sights, rng=rng))
-    settings = Settings(
-        look_ahead=int(rng.integers(2, 4)),
-        growth=str(rng.choice(["predicted", "predicted", "observed"])),
-        choice=str(rng.choice(["outward", "best", "sampled"])),
-        forgetting=float(rng.choice([0.0, 0.0, rng.uniform(0.0, 0.5)])),
-    )
-    agent = Agent(world.motions, settings=settings, seed=int(rng.integers(1 << 30)))
+    settings: dict[str, Any] = {
+        "look_ahead": int(rng.integers(2, 4)),
+        "growth": str(rng.choice(["predicted", "predicted", "observed"])),
+        "choice": str(rng.choice(["outward", "best", "sampled"])),
+        "forgetting": float(rng.choice([0.0, 0.0, rng.uniform(0.0, 0.5)])),
+    }
+    agent = agent_with(world.motions, **settings, seed=int(rng.integers(1 << 30)))
     if rng.random() < 0.3:
         agent.prefer({int(rng.integers(5)): float(rng.uniform(-3.0, 6.0))})
     world.reset(seed=int(rng.integers(1 << 30)))

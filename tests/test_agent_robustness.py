@@ -14,6 +14,7 @@ from cogmap.worlds.generate import random_maze
 from hypothesis import given
 from hypothesis import settings as budget
 from hypothesis import strategies as st
+from parts import agent_with
 from walks import GRID, STAY, assert_agent_is_sound, walk
 
 options = st.fixed_dictionaries(
@@ -62,7 +63,7 @@ def test_walks_through_random_mazes_that_change(
 ) -> None:
     rng = np.random.default_rng(seed)
     world = MazeEnv(random_maze(rooms, sights=sights, rng=rng))
-    agent = Agent(world.motions, settings=Settings(places=100, **given_options), seed=seed)
+    agent = agent_with(world.motions, places=100, **given_options, seed=seed)
     observation, _ = world.reset(seed=seed)
     action = STAY  # which is not heard before the first step
     for step in range(25):
@@ -125,7 +126,7 @@ SPOILS: list[Spoil] = [
 def test_senses_that_lie(spoil: Spoil, growth: str) -> None:
     rng, step = np.random.default_rng(1), iter(range(1000))
     world = load_world("3x3_alias")
-    agent = Agent(world.motions, settings=Settings(look_ahead=2, growth=growth), seed=1)
+    agent = agent_with(world.motions, look_ahead=2, growth=growth, seed=1)
 
     def observe(seen: dict[str, Any]) -> dict[str, Any]:
         return spoil(next(step), seen, rng)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import FrozenInstanceError
 from typing import Any
 
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.inference import FilterOptions
-from cogmap.model import TEXT_RATES, CogmapError, Priors, Rates
+from cogmap.model import TEXT_RATES, CogmapError, Lattice, PredictedGrowth, Priors, Rates, Sight
+from cogmap.planning import MapGuided
 from hypothesis import given
 from hypothesis import settings as budget
 from hypothesis import strategies as st
@@ -20,7 +21,6 @@ NAN, INF = float("nan"), float("inf")
 
 REFUSED: dict[str, list[Any]] = {
     "look_ahead": [0, -1, NAN],
-    "beam": [0, -5],
     "starts": [0, -1],
     "window": [0, -1],
     "precision": [-1.0, NAN, INF],
@@ -28,11 +28,7 @@ REFUSED: dict[str, list[Any]] = {
     "goal_weight": [-1.0, NAN, INF],
     "forgetting": [-0.1, 1.1, NAN],
     "certainty": [-0.1, 1.5, NAN],
-    "places": [0, -3],
-    "policies": ["best", "", None],
-    "growth": ["magic", None],
     "engine": ["torch", None],
-    "choice": ["worst", None],
 }
 
 
@@ -48,9 +44,6 @@ WRONG_KIND: list[dict[str, Any]] = [
     {"look_ahead": None},
     {"look_ahead": 1.5},
     {"window": 2.5},
-    {"beam": 8.5},
-    {"places": "many"},
-    {"places": 2.5},
     {"precision": "high"},
     {"certainty": None},
     {"discount": -1.0},
@@ -117,11 +110,7 @@ def test_unknown_nested_names_are_refused(values: Any) -> None:
 some = st.builds(
     Settings,
     look_ahead=st.integers(1, 9),
-    policies=st.sampled_from(["map_guided", "exhaustive", "self_avoiding", "l_shaped"]),
     precision=st.floats(0.0, 99.0),
-    choice=st.sampled_from(["outward", "best", "sampled"]),
-    growth=st.sampled_from(["predicted", "observed", "static"]),
-    places=st.one_of(st.none(), st.integers(1, 99)),
     rates=st.sampled_from([Rates(), TEXT_RATES, Rates(likelihood=0.5)]),
     forgetting=st.floats(0.0, 1.0),
     certainty=st.floats(0.0, 1.0),
@@ -134,8 +123,6 @@ some = st.builds(
 @given(some)
 @budget(max_examples=50, deadline=None)
 def test_settings_go_through_json_and_back(settings: Settings) -> None:
-    if settings.growth == "static" and settings.places is None:
-        settings = replace(settings, places=4)
     values = settings.to_dict()
     assert Settings.from_dict(values) == settings
     assert Settings.from_dict(json.loads(json.dumps(values))) == settings
@@ -160,13 +147,46 @@ def test_settings_of_an_agent_cannot_be_set() -> None:
 
 def test_the_paper_is_the_default() -> None:
     settings = Settings()
-    assert (settings.certainty, settings.precision, settings.growth) == (0.7, 16.0, "predicted")
+    assert (settings.certainty, settings.precision) == (0.7, 16.0)
+    agent = Agent(GRID)
+    assert agent.parts["growth"] == {"kind": "predicted", "options": {}}
+    assert agent.parts["planner"]["policies"] == {"kind": "map_guided", "options": {"beam": 64}}
     assert settings.rates == Rates((7, 5), (-7, -5), (5, 3))
 
 
-def test_static_growth_without_the_size_is_refused_by_the_agent() -> None:
-    with pytest.raises(CogmapError, match=r"set Settings\.places"):
-        Agent(GRID, settings=Settings(growth="static"))
+@pytest.mark.parametrize(
+    "parts",
+    [
+        {"growth": "predicted"},
+        {"growth": PredictedGrowth},
+        {"pose": "lattice"},
+        {"planner": MapGuided()},
+        {"sensors": ["sight"]},
+        {"settings": {"look_ahead": 3}},
+    ],
+    ids=str,
+)
+def test_parts_are_objects(parts: dict[str, Any]) -> None:
+    with pytest.raises(CogmapError, match=r"agent: (a sensor|\w+) is .*; give an object"):
+        Agent(GRID, **parts)
+
+
+def test_parts_belong_to_one_agent() -> None:
+    for parts in ({"sensors": [Sight()]}, {"pose": Lattice()}):
+        Agent(GRID, **parts)  # type: ignore[arg-type]
+        with pytest.raises(CogmapError, match="belongs to another agent; make one for each"):
+            Agent(GRID, **parts)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["", "s", "o", "moved", "two words", "smell2", 3, None])
+def test_names_of_sensors_are_words(name: Any) -> None:
+    with pytest.raises(CogmapError, match="sensor: cannot be called"):
+        Sight(name)
+
+
+def test_two_sensors_of_one_name_are_refused() -> None:
+    with pytest.raises(CogmapError, match="two have the same name"):
+        Agent(GRID, sensors=[Sight("smell"), Sight("smell")])
 
 
 @pytest.mark.parametrize("seed", [0, 1, None, 2**63, np.int64(4)])

@@ -15,6 +15,7 @@ import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError, decode
 from cogmap.worlds import MazeEnv, load_world
+from parts import agent_with
 from walks import GRID, assert_agent_is_sound, assert_same_belief, assert_same_map, walk, walked
 
 LABELS: dict[str, Callable[[int], Hashable]] = {
@@ -62,7 +63,7 @@ CASES = [
 @pytest.mark.parametrize(("name", "options", "labels"), CASES)
 def test_a_loaded_agent_walks_on_exactly(name: str, options: dict[str, Any], labels: str, tmp_path: Path) -> None:
     world, observe = load_world(name), relabelled(labels)
-    agent = Agent(world.motions, settings=Settings(look_ahead=2, **options), seed=3)
+    agent = agent_with(world.motions, look_ahead=2, **options, seed=3)
     agent.prefer({observe({"sight": 3})["sight"]: 0.5, "never met": 0.1})
     saved, uncertain, file = 0, 0, tmp_path / "map.npz"
     steer = options.get("growth") is not None

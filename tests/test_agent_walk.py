@@ -13,6 +13,7 @@ from cogmap.inference import infer
 from cogmap.model import TEXT_RATES, CogmapError
 from cogmap.planning import Outward, Plan
 from cogmap.worlds import MazeEnv, load_world
+from parts import agent_with
 from walks import GRID, STAY, assert_same_belief, assert_same_map, walk, walked
 
 PLAIN: dict[str, Any] = {"sight": 0, "open": [True] * 5}
@@ -24,16 +25,16 @@ PLAIN: dict[str, Any] = {"sight": 0, "open": [True] * 5}
 @pytest.mark.parametrize(
     ("name", "settings"),
     [
-        ("4x4_alias", Settings(look_ahead=2)),
-        ("4x4_alias", Settings(look_ahead=2, choice="sampled")),
-        ("donut", Settings(look_ahead=2, policies="l_shaped", engine="gtsam", rates=TEXT_RATES)),
+        ("4x4_alias", {"look_ahead": 2}),
+        ("4x4_alias", {"look_ahead": 2, "choice": "sampled"}),
+        ("donut", {"look_ahead": 2, "policies": "l_shaped", "engine": "gtsam", "rates": TEXT_RATES}),
     ],
 )
-def test_the_same_seed_is_the_same_walk(name: str, settings: Settings) -> None:
+def test_the_same_seed_is_the_same_walk(name: str, settings: dict[str, Any]) -> None:
     runs = []
     for _ in range(2):
         world = load_world(name)
-        agent = Agent(world.motions, settings=settings, seed=7)
+        agent = agent_with(world.motions, **settings, seed=7)
         runs.append((list(walk(world, agent, 25, seed=4, displace_every=6)), agent))
     (actions, one), (again, other) = runs
     assert actions == again

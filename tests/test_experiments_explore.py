@@ -10,6 +10,7 @@ import pytest
 from cogmap.agent import Settings
 from cogmap.experiments import (
     ExploreRun,
+    Parts,
     exploration,
     explore,
     explore_many,
@@ -129,15 +130,15 @@ def test_agents_of_ones_own_explore_and_without_transitions_nothing_is_learned()
 
 
 def test_static_growth_is_given_the_number_of_rooms() -> None:
-    run = explore(MAZES["3x3"], settings=Settings(growth="static"), seed=0)
+    run = explore(MAZES["3x3"], agent=Parts(growth="static"), seed=0)
     assert run.steps_to_complete is not None
-    result = exploration(MAZES["3x3"], [run], agent="cogmap", settings=Settings(growth="static"))
+    result = exploration(MAZES["3x3"], [run], agent=Parts(growth="static"))
     assert result["settings"]["places"] == 9
 
 
 def test_imagined_places_save_steps() -> None:
     predicted, observed = (
-        summarise(explore_many(MAZES["3x3"], runs=3, settings=Settings(growth=growth)), max_steps=1)
+        summarise(explore_many(MAZES["3x3"], runs=3, agent=Parts(growth=growth)), max_steps=1)
         for growth in ("predicted", "observed")
     )
     assert predicted["mean_steps_to_complete"] < observed["mean_steps_to_complete"]

@@ -21,6 +21,7 @@ from cogmap.agent import Settings
 from cogmap.experiments import (
     Cell,
     Ledger,
+    Parts,
     Row,
     WorkerLostError,
     completed,
@@ -156,7 +157,7 @@ def test_executors_that_do_not_go_together_are_refused() -> None:
 
 def test_a_cell_is_the_exploration_with_its_seed() -> None:
     row = run_cell(Cell(SMALL, "cogmap", 3, "observed"), max_steps=40)
-    assert row.run == explore(SMALL, seed=3, max_steps=40, settings=Settings(growth="observed"))
+    assert row.run == explore(SMALL, seed=3, max_steps=40, agent=Parts(growth="observed"))
     assert (row.world, row.agent, row.growth) == ("3x3", "cogmap", "observed")
     assert explore_many(SMALL, runs=2, seed=3)[0] == run_cell(Cell(SMALL, "cogmap", 3)).run
 
@@ -278,7 +279,7 @@ def test_a_maze_of_the_same_name_but_other_content_is_another_cell(path: Path) -
 def test_other_settings_are_refused_before_anything_runs(path: Path, explored: list[int]) -> None:
     cells = [Cell(LINE, "cogmap", 0)]
     with Ledger(path) as ledger:
-        list(run_cells(cells, ledger=ledger, settings=Settings(growth="static")))
+        list(run_cells(cells, ledger=ledger, settings=Settings()))
     explored.clear()
     for options, message in (
         ({"settings": Settings(look_ahead=7)}, "settings.look_ahead = 6, this run has 7"),
@@ -320,6 +321,7 @@ import multiprocessing, sys
 from pathlib import Path
 from cogmap.experiments import Cell, Ledger, run_cells, workers
 from cogmap.worlds import MAZES
+from cogmap.experiments import Parts
 
 if __name__ == "__main__":
     cells = [Cell(MAZES["3x3"], "cogmap", seed) for seed in range(1000)]

@@ -27,6 +27,7 @@ from cogmap.model import (
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from parts import agent_with
 from walks import GRID, RIGHT, walk
 
 ENGINES = ("numpy", "gtsam")
@@ -301,8 +302,7 @@ def beliefs(
 ) -> Iterator[tuple[Agent, list[Belief]]]:
     """A walk with silent moves, step by step, and the beliefs so far."""
     world = load_world(name)
-    options = Settings(look_ahead=2, growth=growth, window=window)
-    agent = Agent(world.motions, settings=options, seed=seed)
+    agent = agent_with(world.motions, look_ahead=2, growth=growth, window=window, seed=seed)
     held: list[Belief] = []
     for _ in walk(world, agent, steps, seed=seed, displace_every=5, steer=growth == "observed"):
         held.append(agent.belief)

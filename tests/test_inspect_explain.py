@@ -14,6 +14,7 @@ from cogmap.views import Explanation, explain
 from cogmap.worlds import load_world
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from parts import agent_with
 from walks import GRID, walk, walked
 
 
@@ -87,7 +88,7 @@ def test_what_comes_later_is_told_from_what_is_less() -> None:
     """Of two ways to the same places the one that gets there later loses by the discount alone."""
     world = load_world("t_maze")
     verdicts: set[str] = set()
-    agent = Agent(world.motions, settings=Settings(look_ahead=4, discount=0.5, policies="exhaustive"), seed=0)
+    agent = agent_with(world.motions, look_ahead=4, discount=0.5, policies="exhaustive")
     for _ in walk(world, agent, 8, seed=4):
         told = explain(agent, most=60)
         verdicts |= {lost.verdict for lost in told.rejected}
@@ -130,7 +131,7 @@ def test_an_agent_that_planned_nothing() -> None:
 @pytest.mark.parametrize("options", [{}, {"choice": "sampled"}, {"policies": "exhaustive"}, {"forgetting": 0.1}])
 def test_a_loaded_agent_explains_its_last_choice_alike(options: dict[str, Any], tmp_path: Any) -> None:
     world, file = load_world("4x4_alias"), tmp_path / "m.npz"
-    agent = Agent(world.motions, settings=Settings(look_ahead=3, **options), seed=2)
+    agent = agent_with(world.motions, look_ahead=3, **options, seed=2)
     agent.prefer({3: 0.5, (1, "never met"): 0.1})
     for k, _ in enumerate(walk(world, agent, 12, seed=2, displace_every=5)):
         if k % 3 == 2:

@@ -60,7 +60,7 @@ def test_a_column_holds_what_was_appended(numbers: list[int], restored_at: int) 
             saved = column.values.copy()
             column = Column("numbers", np.int64)
             column.resize(len(saved))
-            column.restore(saved)
+            column.restore({"values": saved})
         assert column.append(number) == i
     assert len(column) == len(numbers)
     assert column.values.tolist() == numbers
@@ -77,7 +77,7 @@ def test_a_column_has_rows_and_is_written_through_its_view() -> None:
     assert column.values[20].tolist() == [1, 2, 3]
     copy = Column("rows", np.int8, width=3)
     copy.resize(len(column))
-    copy.restore(column.values)
+    copy.restore(column.state())
     copy.append(7)
     copy.values[0] = 1
     assert column.values[0].tolist() == [0, 0, 0]

@@ -20,6 +20,7 @@ from cogmap.model import (
     Whereabouts,
 )
 from cogmap.worlds import load_world
+from parts import agent_with
 from walks import DOWN, GRID, LEFT, RIGHT, STAY, UP, walk
 
 OPEN_ALL = (True, True, True, True, True)
@@ -74,7 +75,7 @@ def replayed(map_: CognitiveMap) -> CognitiveMap:
 @pytest.mark.parametrize("growth", GROWTHS)
 def test_the_log_replays_to_the_same_structure(growth: str) -> None:
     world = load_world("4x4_alias")
-    agent = Agent(world.motions, settings=Settings(growth=growth, places=60, look_ahead=2), seed=1)
+    agent = agent_with(world.motions, growth=growth, places=60, look_ahead=2, seed=1)
     for _ in walk(world, agent, 40, seed=1, displace_every=6, steer=True):
         pass
     map_ = agent.map
@@ -187,6 +188,6 @@ def test_places_found_from_another_side_are_not_made_twice() -> None:
 @pytest.mark.parametrize("growth", GROWTHS)
 def test_an_agent_leaves_its_first_room(growth: str) -> None:
     world = load_world("3x3")
-    agent = Agent(world.motions, settings=Settings(growth=growth, places=9, look_ahead=3), seed=0)
+    agent = agent_with(world.motions, growth=growth, places=9, look_ahead=3)
     rooms = {world.position for _ in walk(world, agent, 20)}
     assert len(rooms) > 1

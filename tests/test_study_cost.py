@@ -39,7 +39,7 @@ def test_the_table_stands_beside_the_published(rows: list[Any]) -> None:
     assert by_model["CSCG"] == (5.0, 1.0, 9.0, 48.35, 1.9)
     assert by_model["random"] == (5.0, 1.0, 9.0, None, None)
     assert " ".join(found.lines[1].split()) == "cogmap 5 (1 to 9) paper 14.95, authors' code 31.3"
-    assert [row[:2] for row in runs.rows][:3] == [("cogmap", 5), ("cogmap", 6), ("cscg", 5)]
+    assert [tuple(row[:2]) for row in runs.rows][:3] == [("cogmap", 5), ("cogmap", 6), ("cscg", 5)]
     assert found.json["summary"][0] == {
         "agent": "cogmap",
         "median": 5.0,

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from cogmap.experiments.studies import Asked, run_study, study_named
+from cogmap.experiments.studies import run_study, study_named
 from cogmap.worlds import MAZES
 
 MAZE = MAZES["donut"]
@@ -64,7 +64,7 @@ def test_second_tries_are_counted(rows: list[Any]) -> None:
 
 
 def test_what_is_left(tmp_path: Path) -> None:
-    lines = run_study(DONUT, tmp_path, Asked(runs=2)).lines
+    lines = run_study(DONUT, tmp_path, runs=2).lines
     assert lines[0].startswith("2 of 2 agents explored donut; moved to (0, 0), sight 12 preferred")
     assert lines[1] == "met the closed room 2/2, reached the goal 2/2, in 10.0 moves (mean)"
     assert lines[2] == "in exactly 10 moves (there, back, and round) 2/2"

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.experiments import CSCG, ExploreRun, Row, explore
-from cogmap.experiments.studies import Asked, Findings, Study, Table, run_study, study_named
+from cogmap.experiments import CSCG, ExploreRun, Parts, Row, explore
+from cogmap.experiments.studies import Findings, Study, Table, run_study, study_named
 from cogmap.model import CogmapError
 from cogmap.worlds import MAZES
 from command_line import cogmap
@@ -175,8 +175,8 @@ def test_rows_are_those_of_explore(name: str) -> None:
     rows = of(name, worlds=("3x3", "t_maze"), cap=200, **models).rows(2, seed=3)
     assert len({(row.world, row.agent, row.growth, row.run.seed) for row in rows}) == len(rows) == 12
     for row in rows:
-        own = {"settings": Settings(growth=row.growth)} if row.agent == "cogmap" else {}
-        assert row.run == explore(MAZES[row.world], row.run.seed, agent=row.agent, max_steps=200, **own)
+        agent = Parts(growth=row.growth) if row.agent == "cogmap" else row.agent
+        assert row.run == explore(MAZES[row.world], row.run.seed, agent=agent, max_steps=200)
 
 
 def test_the_protocols_are_those_of_the_paper() -> None:
@@ -228,12 +228,12 @@ def test_what_was_interrupted_goes_on(walked: list[int]) -> None:
 
 def test_studies_in_one_folder_share_their_runs(tmp_path: Path, walked: list[int]) -> None:
     small = {"worlds": ("3x3",), "models": ("cogmap",)}
-    run_study(of("exploration", **small), tmp_path, Asked(runs=1))
+    run_study(of("exploration", **small), tmp_path, runs=1)
     first = walked[1]
-    run_study(of("rooms", **small), tmp_path, Asked(runs=1))
+    run_study(of("rooms", **small), tmp_path, runs=1)
     assert walked[1] == first
     assert len((tmp_path / "cells.jsonl").read_text().splitlines()) == 2
-    run_study(of("rooms", **small), tmp_path, Asked(runs=2))
+    run_study(of("rooms", **small), tmp_path, runs=2)
     assert walked[1] > first
     assert len(saved(tmp_path, "rooms")["rows"]) == 2
 
@@ -268,7 +268,7 @@ def test_a_ledger_of_something_else_is_refused_at_once(
 
 def test_who_gave_up_is_in_every_file(tmp_path: Path) -> None:
     small = of("exploration", worlds=("3x3",), models=("cogmap", "cscg"), cap=30)
-    outcome = run_study(small, tmp_path, Asked(runs=2))
+    outcome = run_study(small, tmp_path, runs=2)
     tables = {f"exploration{part}.csv" for part in ("", "_table", "_compared", "_ratio", "_summary")}
     pages = {f"exploration.{suffix}" for suffix in ("json", "md", "html")}
     names = {*tables, *pages, "exploration_steps.png", "exploration_steps.svg"}

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from cogmap.agent import Settings
-from cogmap.experiments import explore
+from cogmap.experiments import Parts, explore
 from cogmap.worlds import MAZES, Maze, comb, hall, random_maze, rings, spiral
 
 pytestmark = pytest.mark.study
@@ -65,7 +64,7 @@ def test_mazes_never_seen_before_within_a_quarter_of_the_oracle(name: str, study
 @pytest.mark.parametrize("name", ["3x3_alias", "4x4", "4x4_alias", "tolman"])
 def test_predicted_growth_needs_the_fewest_steps(name: str, study: bool) -> None:
     def mean(growth: str) -> float:
-        runs = [explore(MAZES[name], settings=Settings(growth=growth), seed=s) for s in range(20 if study else 8)]
+        runs = [explore(MAZES[name], agent=Parts(growth=growth), seed=s) for s in range(20 if study else 8)]
         return float(np.mean([run.steps_to_complete or np.inf for run in runs]))
 
     predicted = mean("predicted")

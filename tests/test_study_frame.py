@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from cogmap.agent import Settings
 from cogmap.experiments import workers
-from cogmap.experiments.studies import Asked, Findings, Study, run_studies, run_study, studies, study_named
+from cogmap.experiments.studies import Findings, Study, run_studies, run_study, studies, study_named
 from cogmap.model import CogmapError
 from command_line import cogmap
 from pages import Page
@@ -103,7 +103,7 @@ def test_unknown_studies_are_refused() -> None:
 
 
 def test_what_a_study_leaves_in_its_folder(tmp_path: Path) -> None:
-    outcome = run_study(Toy(), tmp_path / "a" / "b", Asked(runs=2, seed=7))
+    outcome = run_study(Toy(), tmp_path / "a" / "b", runs=2, seed=7)
     tables = ["toy.csv", "toy_steps.csv", "toy_steps_ways.csv", "toy_summary.csv"]
     pictures = [f"toy_{name}.{suffix}" for name in ("one", "two") for suffix in ("png", "svg")]
     assert [path.name for path in outcome.written] == ["toy.json", *tables, *pictures, "toy.md", "toy.html"]
@@ -115,21 +115,21 @@ def test_what_a_study_leaves_in_its_folder(tmp_path: Path) -> None:
     assert report["rows"][1]["steps"] == [{"x": 0, "ways": []}, {"x": 1, "ways": [{"p": 0.5}]}]
     assert set(report["versions"]) >= {"cogmap", "python", "numpy", "scipy", "platform"}
     assert set(report["machine"]) >= {"processor", "cores", "system", "OMP_NUM_THREADS"}
-    assert report["command"] == "cogmap study toy --runs 2 --seed 7"
+    assert report["command"] == "run_study(Toy(), folder, runs=2, seed=7)"
     assert (outcome.agents, outcome.lines, len(outcome.failed)) == (2, ["2 rows"], 1)
 
 
 def test_another_look_ahead_is_in_the_command(tmp_path: Path) -> None:
-    run_study(Toy(), tmp_path, Asked(runs=1, look_ahead=4))
-    assert saved(tmp_path, "toy")["command"].endswith("--seed 0 --look-ahead 4")
-    run_study(Toy(), tmp_path, Asked(runs=1, look_ahead=9))  # its own
-    assert saved(tmp_path, "toy")["command"].endswith("--seed 0")
+    run_study(Toy(), tmp_path, runs=1, look_ahead=4)
+    assert saved(tmp_path, "toy")["command"].endswith("seed=0, look_ahead=4)")
+    run_study(Toy(), tmp_path, runs=1, look_ahead=9)  # its own
+    assert saved(tmp_path, "toy")["command"].endswith("seed=0)")
     with pytest.raises(CogmapError, match="look_ahead is 0"):
-        run_study(Toy(), tmp_path, Asked(look_ahead=0))
+        run_study(Toy(), tmp_path, look_ahead=0)
 
 
 def test_every_list_of_rows_is_a_table(tmp_path: Path) -> None:
-    run_study(Toy(), tmp_path, Asked(runs=2, seed=5))
+    run_study(Toy(), tmp_path, runs=2, seed=5)
     rows, steps, ways, summary = (
         table(tmp_path / f"toy{part}.csv") for part in ("", "_steps", "_steps_ways", "_summary")
     )
@@ -155,7 +155,7 @@ def test_every_list_of_rows_is_a_table(tmp_path: Path) -> None:
 
 
 def test_tables_of_its_own_say_what_there_is(tmp_path: Path) -> None:
-    run_study(Tabled(), tmp_path, Asked(runs=1))
+    run_study(Tabled(), tmp_path, runs=1)
     assert table(tmp_path / "tabled.csv")[1] == [
         "",
         "True",
@@ -177,7 +177,7 @@ def test_tables_of_its_own_say_what_there_is(tmp_path: Path) -> None:
 
 
 def test_text_is_shown_as_it_is_and_the_page_needs_nothing_else(tmp_path: Path) -> None:
-    run_study(Toy(), tmp_path, Asked(runs=2))
+    run_study(Toy(), tmp_path, runs=2)
     html = (tmp_path / "toy.html").read_text()
     page = Page(html)
     tags = {tag for tag, _ in page.tags}
@@ -198,7 +198,7 @@ def test_figures_that_are_no_numbers_are_refused(tmp_path: Path) -> None:
             return Findings({"rows": [], "value": float("nan")}, [], {})
 
     with pytest.raises(ValueError, match="not JSON compliant"):
-        run_study(Broken(), tmp_path, Asked(runs=1))
+        run_study(Broken(), tmp_path, runs=1)
 
 
 @pytest.mark.parametrize("folder", ["file", "file/below", "n" * 300])
@@ -306,6 +306,6 @@ def test_where_nothing_fails_the_exit_code_is_0(three: dict[str, Study[Any, Any]
 @pytest.mark.usefixtures("three")
 def test_outcomes_are_told_as_they_come(tmp_path: Path) -> None:
     told: list[str] = []
-    outcomes, _ = run_studies(tmp_path, Asked(runs=1), on_outcome=lambda one: told.append(one.failure))
+    outcomes, _ = run_studies(tmp_path, runs=1, on_outcome=lambda one: told.append(one.failure))
     assert [bool(failure) for failure in told] == [True, False, False]
     assert [outcome.agents for outcome in outcomes] == [1, 1, 1]

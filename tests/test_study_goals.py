@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from cogmap.agent import Settings
 from cogmap.experiments import NavigateRun, navigate, workers
-from cogmap.experiments.studies import Asked, run_study, study_named
+from cogmap.experiments.studies import run_study, study_named
 from cogmap.worlds import MAZES
 
 STUDY = study_named("goals")
@@ -81,7 +81,7 @@ def test_failures_are_counted_and_shown() -> None:
 
 
 def test_what_is_left(tmp_path: Path) -> None:
-    lines = run_study(STUDY, tmp_path, Asked(runs=1, seed=5)).lines
+    lines = run_study(STUDY, tmp_path, runs=1, seed=5).lines
     words = [line.split()[0] for line in lines]
     assert all(words.count(world) == 2 for world in MAZES)
     assert "failed:" not in words

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from cogmap.baselines import HabitAgent
 from cogmap.experiments import workers
-from cogmap.experiments.studies import Asked, run_study, study_named
+from cogmap.experiments.studies import run_study, study_named
 from cogmap.worlds import GRID, MAZES, Maze, MazeEnv, Position, WorldError, shortest_path
 
 UP, DOWN, LEFT, RIGHT, STAY = range(5)
@@ -34,9 +34,7 @@ def made(rows: list[Any]) -> Any:
     row = rows[0][0]
 
     def make(*paths: Sequence[Position]) -> Any:
-        world = MazeEnv(MAZE)
-        world.close_room(B)
-        runs = [type(row.probe[0]).of(path, None, world) for path in paths]
+        runs = [type(row.probe[0]).of(path, None, B) for path in paths]
         return type(row).of(0, runs, runs)
 
     return make
@@ -86,7 +84,7 @@ def test_who_meets_nothing_counts_against(made: Any) -> None:
 
 
 def test_what_is_left(tmp_path: Path) -> None:
-    outcome = run_study(STUDY, tmp_path, Asked(runs=1))
+    outcome = run_study(STUDY, tmp_path, runs=1)
     report = json.loads((tmp_path / "insight.json").read_text())
     assert report["summary"]["rats"]["route_3_first"]["count"] == 9
     assert len(report["rows"]) == len(report["controls"]) == 1

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.experiments.studies import Asked, run_study, study_named
+from cogmap.experiments.studies import run_study, study_named
 from cogmap.worlds import MAZES
 
 MAZE = MAZES["t_maze_alias"]
@@ -88,7 +88,7 @@ def test_who_is_done_keeps_the_last_value(rows: list[Any]) -> None:
 
 
 def test_what_is_left(tmp_path: Path) -> None:
-    outcome = run_study(STUDY, tmp_path, Asked(runs=3, seed=2))
+    outcome = run_study(STUDY, tmp_path, runs=3, seed=2)
     assert outcome.lines[0].startswith("3 of 3 agents explored t_maze_alias; moved to (3, 2)")
     paper = outcome.lines[outcome.lines.index("told, sights alone (the paper):") + 1 :]
     assert paper[0] == "  after the first sight 3 split, 0 right, 0 wrong; 3.0 rooms to choose from (mean)"

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from cogmap.experiments import workers
-from cogmap.experiments.studies import Asked, run_study, study_named
+from cogmap.experiments.studies import run_study, study_named
 from cogmap.model import CogmapError
 
 STUDY: Any = study_named("martinet")
@@ -67,7 +67,7 @@ def test_shares_and_preferences(rows: list[Any]) -> None:
 
 
 def test_what_is_left(tmp_path: Path) -> None:
-    outcome = run_study(SMALL, tmp_path, Asked(runs=1))
+    outcome = run_study(SMALL, tmp_path, runs=1)
     report = json.loads((tmp_path / "martinet.json").read_text())
     assert (report["summary"]["runs"], report["protocol"]["days"]) == (12 + 12 + 7, 2)
     assert len(outcome.lines) == 9

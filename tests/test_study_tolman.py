@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 from cogmap.experiments import workers
-from cogmap.experiments.studies import Asked, run_study, study_named
+from cogmap.experiments.studies import run_study, study_named
 from cogmap.model import CogmapError
-from cogmap.worlds import MAZES, MazeEnv, Position, shortest_path
+from cogmap.worlds import MAZES, Position, shortest_path
 
 MAZE = MAZES["tolman"]
 START, GOAL, FORK = (6, 2), (0, 2), (3, 2)
@@ -41,11 +41,8 @@ def made(rows: list[Any]) -> Any:
     kind = type(rows[0][1].blocks["no obstacle"][0])
 
     def make(path: Sequence[Position], *, closed: Position | None = None, knew: bool = True, wrong: int = 0) -> Any:
-        world = MazeEnv(MAZE)
-        if closed is not None:
-            world.close_room(closed)
         path = [*path, *[path[-1]] * (STEPS - len(path))][:STEPS]
-        return kind.of(path, path.index(GOAL) if path[-1] == GOAL else None, world, knew, wrong)
+        return kind.of(path, path.index(GOAL) if path[-1] == GOAL else None, closed, knew, wrong)
 
     return make
 
@@ -119,7 +116,7 @@ def test_the_knob_holds_the_study_and_the_other_values(rows: list[Any]) -> None:
 
 
 def test_what_is_left(tmp_path: Path) -> None:
-    outcome = run_study(SMALL, tmp_path, Asked(runs=1))
+    outcome = run_study(SMALL, tmp_path, runs=1)
     report = json.loads((tmp_path / "tolman.json").read_text())
     assert report["summary"]["A closed"]["runs"] == 2
     assert report["paper"]["no obstacle"]["1"]["count"] == 48

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.model import CogmapError, Rates
+from cogmap.model import CogmapError, Rates, StaticGrowth
 from cogmap.views import (
     VERMILION,
     MapPicture,
@@ -102,7 +102,7 @@ def test_belief_is_a_disc_and_a_number_behind_each_place() -> None:
 
 
 def test_belief_without_a_position_is_told() -> None:
-    lost = Agent(GRID, settings=Settings(growth="static", places=5), seed=0)
+    lost = Agent(GRID, growth=StaticGrowth(5), seed=0)
     lost.step({"sight": "a", "open": [False] * 4 + [True]})
     ax = plot_belief_map({0: 0.25, 3: 0.75}, lost.map)
     assert "75% of the belief among them" in "".join(text.get_text() for text in ax.texts)

@@ -9,7 +9,7 @@ import pytest
 from charts import row
 from cogmap.agent import Agent
 from cogmap.experiments import walk
-from cogmap.model import CogmapError
+from cogmap.model import CogmapError, StaticGrowth
 from cogmap.views import (
     BLUE,
     GREEN,
@@ -151,9 +151,8 @@ def test_visited_places_are_filled_imagined_ones_hollow(agent: Agent) -> None:
 
 
 def test_places_without_a_position_are_counted() -> None:
-    from cogmap.agent import Settings
 
-    lost = Agent(GRID, settings=Settings(growth="static", places=5), seed=0)
+    lost = Agent(GRID, growth=StaticGrowth(5), seed=0)
     lost.step({"sight": "a", "open": [False] * 4 + [True]})
     assert [text.get_text() for text in plot_map(lost.map).texts][-1] == "4 places without a position"
 

@@ -7,10 +7,11 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from cogmap.agent import Agent, Settings
+from cogmap.agent import Agent
 from cogmap.model import CognitiveMap, map_state
 from cogmap.planning import LocalCache
 from cogmap.worlds import MazeEnv
+from parts import agent_with
 
 GRID = {"up": (-1, 0), "down": (1, 0), "left": (0, -1), "right": (0, 1), "stay": (0, 0)}
 UP, DOWN, LEFT, RIGHT, STAY = range(5)
@@ -52,7 +53,7 @@ def walk(
 
 def walked(world: MazeEnv, steps: int, *, seed: int = 0, displace_every: int = 0, **settings: Any) -> Agent:
     """An agent that has walked."""
-    agent = Agent(world.motions, settings=Settings(**{"look_ahead": 3, **settings}), seed=seed)
+    agent = agent_with(world.motions, seed=seed, **{"look_ahead": 3, **settings})
     for _ in walk(world, agent, steps, seed=seed, displace_every=displace_every):
         pass
     return agent

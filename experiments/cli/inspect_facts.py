@@ -44,6 +44,7 @@ def summary(path: Path, agent: Agent) -> Facts:
         "version": header.get("version"),
         "steps": agent.steps,
         "settings": settings,
+        "parts": agent.parts,
         "changed_settings": {name: value for name, value in settings.items() if value != default[name]},
         "motions": dict(zip(map_.motions.names, map(list, map_.motions.displacements), strict=True)),
         "places": {

@@ -54,17 +54,17 @@ def study_command(
     exploration, rooms and growth keep every finished run in DIR/cells.jsonl: the same command goes on from there.
     """
     from .. import workers
-    from ..studies import EVERYTHING, Asked, run_studies, run_study, study_named
+    from ..studies import EVERYTHING, Options, run_studies, run_study, study_named
     from .group import INTERRUPTED, fail
 
     study = None if name == EVERYTHING else study_named(name)
-    folder, asked = out or Path(f"study-{name}"), Asked(runs, seed, look_ahead)
+    folder, how = out or Path(f"study-{name}"), Options(runs=runs, seed=seed, look_ahead=look_ahead, counter=counting)
     try:
-        with workers(jobs=jobs, dask=dask) as executor:
+        with workers(jobs=jobs, dask=dask) as how["executor"]:
             if study is not None:
-                _show(run_study(study, folder, asked, executor=executor, counter=counting))
+                _show(run_study(study, folder, **how))
                 return
-            outcomes, written = run_studies(folder, asked, executor=executor, counter=counting, on_outcome=_show)
+            outcomes, written = run_studies(folder, on_outcome=_show, **how)
     except KeyboardInterrupt as stop:
         if not stop.args:
             raise

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from .figures import legend_below, panels, plot_bars
 from .intervals import Interval, Share, bootstrap, wilson
-from .running import Asked, Outcome, run_studies, run_study
+from .running import Options, Outcome, run_studies, run_study
 from .study import EVERYTHING, Findings, Study, failed_seeds, studies, study_named
 from .tables import Table
 
 __all__ = [
     "EVERYTHING",
-    "Asked",
     "Findings",
     "Interval",
+    "Options",
     "Outcome",
     "Share",
     "Study",

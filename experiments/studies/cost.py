@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 from statistics import median
 from time import perf_counter
+from typing import Any
 
 from ...agent import Settings
 from ...views import theme_of
@@ -27,8 +28,6 @@ PAPER = {"cogmap": 14.95, "cscg": 48.35}
 AUTHORS = {"cogmap": 31.3, "cscg": 1.9}
 """The same of the authors' code as measured in the 4x4 maze; CSCG compiled by numba, compilation left out."""
 
-Task = tuple[str, int]  # agent, seed
-
 
 @dataclass(frozen=True, slots=True)
 class Time:
@@ -40,7 +39,7 @@ class Time:
 
 
 @dataclass(frozen=True)
-class Cost(Study[Task, Time]):
+class Cost(Study[tuple[str, int], Time]):
     """Seconds for a hundred steps
 
     How long do 100 forced exploring steps take in the 4x4 maze? The agent goes on when there is nothing
@@ -61,38 +60,39 @@ class Cost(Study[Task, Time]):
 
     steps: int = STEPS  # that are timed
 
-    def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Task]:
+    def tasks(self, seeds: Sequence[int], settings: Settings) -> list[tuple[str, int]]:
         """The agents take turns, so that a machine that is slow for a while is slow for all."""
         return [(agent, seed) for seed in seeds for agent in MODELS]
 
-    def run(self, task: Task, settings: Settings) -> Time:
+    def run(self, task: tuple[str, int], settings: Settings) -> Time:
         """From an agent that knows nothing to its last action, the world's part included."""
         _seconds(*task, settings, min(WARM, self.steps))
         return Time(*task, round(_seconds(*task, settings, self.steps), 5))
 
     def summarise(self, rows: Sequence[Time]) -> Findings:
         """Median and range by agent, beside what was published."""
-        every = {agent: [row.seconds for row in rows if row.agent == agent] for agent in MODELS}
-        times = {agent: Interval(median(part), min(part), max(part), len(part)) for agent, part in every.items()}
-        whole, by_agent = (
-            f"{self.steps} forced exploring steps in {WORLD}",
-            sorted(rows, key=lambda row: MODELS.index(row.agent)),
-        )
-        count = len(every["cogmap"])
-        summary = [
-            {"agent": agent, "median": round(time.value, 5), "fastest": time.low, "slowest": time.high}
-            | {"seconds": every[agent], "paper": PAPER.get(agent), "authors": AUTHORS.get(agent)}
-            for agent, time in times.items()
-        ]
+        whole, runs = f"{self.steps} forced exploring steps in {WORLD}", len(rows) // len(MODELS)
+        by_agent = sorted(rows, key=lambda row: MODELS.index(row.agent))
+        times, summary, lines, table = dict[str, Interval](), list[Any](), list[str](), list[list[Value]]()
+        for agent, name in ((agent, LOOKS[agent][0]) for agent in MODELS):
+            paper, authors = PAPER.get(agent), AUTHORS.get(agent)
+            seconds = [row.seconds for row in rows if row.agent == agent]
+            low, middle, high = min(seconds), round(median(seconds), 5), max(seconds)
+            times[agent] = Interval(middle, low, high, runs)
+            figures = {"agent": agent, "median": middle, "fastest": low, "slowest": high, "seconds": seconds}
+            summary.append({**figures, "paper": paper, "authors": authors})
+            table.append([name, *(float(f"{value:.3g}") for value in (middle, low, high)), paper, authors])
+            beside = [f"{who} {value:g}" for who, value in (("paper", paper), ("authors' code", authors)) if value]
+            spread = f"({low:.3g} to {high:.3g})"
+            lines.append(f"  {name:<17}{middle:>8.3g} {spread:<20}{', '.join(beside)}".rstrip())
         heads = ("model", "median", "fastest", "slowest", "paper", "authors' code")
-        runs = [(row.agent, row.seed, row.seconds) for row in by_agent]
-        protocol = {"world": WORLD, "steps": self.steps, "warm_up_steps": WARM, "processes": 1}
         tables = [
-            Table("cost", ("agent", "seed", "seconds"), runs, "every run", shown=False),
-            Table("cost_table", heads, [_row(*i) for i in times.items()], f"Seconds for {whole}, of {count} runs."),
+            Table.of("cost", [asdict(row) for row in by_agent], "every run", shown=False),
+            Table("cost_table", heads, table, f"Seconds for {whole}, of {runs} runs."),
         ]
-        lines = [f"seconds for {whole}, median (range) of {count}", *(_line(*item) for item in times.items())]
+        protocol = {"world": WORLD, "steps": self.steps, "warm_up_steps": WARM, "processes": 1}
         json = {"protocol": protocol, "rows": by_agent, "summary": summary}
+        lines.insert(0, f"seconds for {whole}, median (range) of {runs}")
         return Findings(json, lines, {"cost_seconds": partial(_figure, whole, times)}, tables)
 
 
@@ -102,18 +102,6 @@ def _seconds(agent: str, seed: int, settings: Settings, steps: int) -> float:
     begin = perf_counter()
     run(world, Parts(agent, settings).make(world, for_agent), steps=steps, options={"start": start})
     return perf_counter() - begin
-
-
-def _line(agent: str, time: Interval) -> str:
-    published = ((PAPER, "paper"), (AUTHORS, "authors' code"))
-    beside = ", ".join(f"{name} {figures[agent]:g}" for figures, name in published if agent in figures)
-    spread = f"({time.low:.3g} to {time.high:.3g})"
-    return f"  {LOOKS[agent][0]:<17}{time.value:>8.3g} {spread:<20}{beside}".rstrip()
-
-
-def _row(agent: str, time: Interval) -> tuple[Value, ...]:
-    own = (float(f"{value:.3g}") for value in (time.value, time.low, time.high))
-    return LOOKS[agent][0], *own, PAPER.get(agent), AUTHORS.get(agent)
 
 
 def _figure(title: str, times: dict[str, Interval]) -> Figure:

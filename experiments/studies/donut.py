@@ -14,7 +14,7 @@ from ...agent import Settings
 from ...views import BLUE, VERMILION
 from ...worlds import MAZES, Label, Position, shortest_path
 from .. import Moment, Session, explored, mean, number
-from .figures import Axes, Figure, ImaginedPath, Look, draw_room, imagined_paths, panels, plot_ways
+from .figures import Figure, ImaginedPath, Look, draw_room, imagined_paths, panels, plot_ways
 from .study import Findings, Study, failed_seeds
 
 MAZE = MAZES["donut"]
@@ -161,16 +161,11 @@ def _frames(row: DonutRow) -> Figure:
         plot_ways(ax, MAZE, closed=CLOSED, imagined=step.paths, way=row.path[: frame + 1])
         draw_room(ax, GOAL_ROOM, facecolor="none", edgecolor="red", linewidth=3.0, zorder=2.2)
         ax.set_title(f"{frame + 1}) {step.action}, P = {step.first_action[step.action]:.2f}", fontsize=12)
-    _draw_way_open(axes[-1].inset_axes((0.12, 0.14, 0.86, 0.78)), row)  # its labels take no room from the frames
-    return figure
-
-
-def _draw_way_open(ax: Axes, row: DonutRow) -> None:
-    frames = range(1, len(row.steps) + 1)
+    ax, frames = axes[-1].inset_axes((0.12, 0.14, 0.86, 0.78)), range(1, len(row.steps) + 1)  # labels take no room
     looks: list[Look] = [{"color": BLUE, "marker": "o"}, {"color": VERMILION, "marker": "s", "linestyle": "--"}]
     for name, look in zip(DOORS, looks, strict=True):
         ax.plot(frames, [step.way_open[name] for step in row.steps], label=name, markersize=5, **look)
-    ax.set_ylim(-0.05, 1.05)
-    ax.set_xlabel("frame")
+    ax.set(ylim=(-0.05, 1.05), xlabel="frame")
     ax.set_title("P(way open) into the closed room", fontsize=12)
     ax.legend(frameon=False, loc="center right")
+    return figure

@@ -103,10 +103,7 @@ class Exploration(Explorations):
 
 
 def _factor(grid: Grid, both: Grid, world: str, best: str) -> dict[str, Any]:
-    """How many times the steps of ours the best CSCG, the one with the smallest mean, needs to learn a maze.
-
-    The ratio is a lower bound where the best is censored, None where ours is.
-    """
+    """How many times our steps the best CSCG needs: a lower bound where it is censored, None where ours are."""
     ours, its = grid[world, "cogmap"], grid[world, best]
     theirs = [PAPER[world, model][0] for model in CSCG if (world, model) in PAPER]
     return {

@@ -24,6 +24,7 @@ LEAST = 1e-3  # imagined paths that are less probable are left out
 WIDEST = 13.0  # points of the door that was walked through most
 
 Sure = Interval | Share
+Way = Sequence[Position]  # the rooms that were walked through
 Look = dict[str, Any]  # of what is drawn, as matplotlib takes it
 
 
@@ -100,12 +101,7 @@ def imagined_paths(plan: Plan, map_: CognitiveMap, start: Position) -> tuple[Ima
 
 
 def plot_ways(
-    ax: Axes,
-    maze: Maze,
-    *,
-    closed: Position | None = None,
-    imagined: Sequence[ImaginedPath] = (),
-    way: Sequence[Position] = (),
+    ax: Axes, maze: Maze, *, closed: Position | None = None, imagined: Sequence[ImaginedPath] = (), way: Way = ()
 ) -> None:
     """The maze, a closed room hatched, imagined paths by their probability, and the way of an agent up to its cross."""
     plot_world(maze, closed=[] if closed is None else [closed], ax=ax)
@@ -118,7 +114,7 @@ def plot_ways(
     ax.scatter(columns[-1:], rows[-1:], marker="X", s=150, zorder=6, **look)
 
 
-def plot_flow(ax: Axes, maze: Maze, paths: Sequence[Sequence[Position]], *, closed: Position | None = None) -> None:
+def plot_flow(ax: Axes, maze: Maze, paths: Sequence[Way], *, closed: Position | None = None) -> None:
     """The maze, paler, with a line through each door, wider and darker the more often it was walked through."""
     plot_ways(ax, maze, closed=closed)
     moves = [(min(at, to), max(at, to)) for path in paths for at, to in pairwise(path) if at != to]

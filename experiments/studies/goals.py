@@ -27,8 +27,6 @@ MARKS = {
     "frontier": ("D", "nearest-frontier search first there", 6.0, (1.0, 1.0, 1.0)),
 }
 
-Task = tuple[str, bool, int]  # world, whether its map is known, seed
-
 
 @dataclass(frozen=True, slots=True)
 class GoalRun(Record):
@@ -41,7 +39,7 @@ class GoalRun(Record):
     run: NavigateRun
 
 
-class Goals(Study[Task, GoalRun]):
+class Goals(Study[tuple[str, bool, int], GoalRun]):
     """Steps to a goal
 
     How many moves to a preferred sight, against the exact shortest path: with a map, after a move without a
@@ -54,11 +52,11 @@ class Goals(Study[Task, GoalRun]):
         "The authors' agent is told that it was moved, its belief is reset; ours is not told.",
     )
 
-    def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Task]:
+    def tasks(self, seeds: Sequence[int], settings: Settings) -> list[tuple[str, bool, int]]:
         """Each maze with a map and without, with every seed, which draws start, goal and agent."""
         return [(world, known, seed) for world in MAZES for known in (True, False) for seed in seeds]
 
-    def run(self, task: Task, settings: Settings) -> GoalRun:
+    def run(self, task: tuple[str, bool, int], settings: Settings) -> GoalRun:
         """One way to a goal."""
         world, known, seed = task
         maze = MAZES[world]
@@ -135,7 +133,8 @@ def _by_distance(rows: Sequence[GoalRun]) -> Figure:
         marks = ("shortest",) if known else ("shortest", "to_stand", "frontier")
         for shift, (aliased, name), colour in zip((-0.2, 0.2), ALIASED.items(), (BLUE, ORANGE), strict=True):
             groups = [summarised(part, known=known, aliased=aliased) for part in near]
-            _draw_bars(ax, shift, groups, "steps", width=0.38, color=colour, label=name)
+            at, steps = [i + shift for i in range(len(groups))], [group["steps"] for group in groups]
+            plot_bars(ax, at, steps, width=0.38, color=colour, label=name)
             _draw_marks(ax, shift, groups, marks, named=not aliased)
         ax.set_xticks(range(len(near)), list(DISTANCES))
         ax.set_xlabel("steps of the shortest path")
@@ -150,16 +149,12 @@ def _by_world(summary: dict[tuple[str, bool], dict[str, Any]]) -> Figure:
     for ax, known in zip(axes, HOW, strict=True):
         groups, width = [summary[world, known] for world in MAZES], 0.8 / max(len(series[known]), 2)
         for number, (what, name, colour) in enumerate(series[known]):
-            shift = (number - (len(series[known]) - 1) / 2) * width
-            _draw_bars(ax, shift, groups, what, width=width * 0.95, color=colour, label=name)
+            at = [i + (number - (len(series[known]) - 1) / 2) * width for i in range(len(groups))]
+            plot_bars(ax, at, [group[what] for group in groups], width=width * 0.95, color=colour, label=name)
         _draw_marks(ax, 0.0, groups, ["shortest"])
         ax.set_xticks(range(len(groups)), list(MAZES), rotation=30, ha="right")
         _finish(ax, known)
     return figure
-
-
-def _draw_bars(ax: Axes, shift: float, groups: Sequence[dict[str, Any]], what: str, **style: Any) -> None:
-    plot_bars(ax, [i + shift for i in range(len(groups))], [group[what] for group in groups], **style)
 
 
 def _draw_marks(

@@ -137,11 +137,7 @@ class Explorations(Study[Cell, Row]):
 
     @contextmanager
     def ledger(self, folder: Path, settings: Settings) -> Generator[Ledger | None]:
-        """The ledger in the folder, which is made if need be.
-
-        Raises:
-            CogmapError: it cannot be written, is in use, or was made with other settings.
-        """
+        """The ledger in the folder; refused if it cannot be written, is in use, or of other settings (CogmapError)."""
         make_folder(folder)
         with Ledger(folder / LEDGER) as ledger:
             for _ in self.completed((), settings, None, ledger):
@@ -204,12 +200,7 @@ def steps_figure(
 ) -> Figure:
     """Means with 95 % intervals, on a logarithmic scale; those that are lower bounds are hollow and point upwards.
 
-    Args:
-        title: of the figure.
-        grid: what is shown.
-        cap: moves after which a run gave up; drawn where some run did.
-        beside: means of others, in the same grid.
-        published: what those are called.
+    The cap is drawn where some run gave up; `beside` are means of others, called `published`.
     """
     figure, (ax,) = panels("", (1, 1), (11.0, 5.6))
     worlds, columns = (list(dict.fromkeys(key[i] for key in grid)) for i in (0, 1))
@@ -260,5 +251,4 @@ def _finish(ax: Axes, worlds: Sequence[str], *, room: bool) -> None:
     ax.grid(axis="y", color=theme_of(ax).shade(0.07), linewidth=0.8)
     for edge in range(1, len(worlds)):
         ax.axvline(edge - 0.5, color=theme_of(ax).shade(0.13), linewidth=0.8, zorder=0)
-    ax.set_axisbelow(True)
     ax.legend(fontsize=8, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.08), ncols=6)

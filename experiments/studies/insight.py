@@ -12,10 +12,10 @@ from scipy import stats
 from ...agent import Settings
 from ...baselines import HabitAgent
 from ...views import theme_of
-from ...worlds import GRID, MazeEnv, Position
+from ...worlds import GRID, Position
 from .. import mean, number
 from . import tolman_maze as maze
-from .figures import Figure, panels, plot_bars, shares_axis
+from .figures import Figure, Way, panels, plot_bars, shares_axis
 from .intervals import Share, wilson
 from .study import Findings, Study, failed_seeds
 from .tolman_maze import ROUTES, Choice, TolmanRun, choice_after
@@ -65,12 +65,12 @@ class Insight(Study[int, tuple[InsightRow, InsightRow]]):
     def run(self, task: int, settings: Settings) -> tuple[InsightRow, InsightRow]:
         """An agent, and a control that learns by reward and has no map."""
         agent, control = maze.new_agent(settings, task), _control(task)
-        return self._trained(task, lambda world: maze.agent_run(agent, world)), self._trained(task, control)
+        return self._trained(task, partial(maze.agent_run, agent)), self._trained(task, control)
 
-    def _trained(self, seed: int, one_run: Callable[[MazeEnv], TolmanRun]) -> InsightRow:
-        training, probe = [one_run(maze.new_world()) for _ in range(self.runs)], list[TolmanRun]()
+    def _trained(self, seed: int, one_run: Callable[[Position | None], TolmanRun]) -> InsightRow:
+        training, probe = [one_run(None) for _ in range(self.runs)], list[TolmanRun]()
         while len(probe) < MOST and not (choice_after(probe) and probe[-1].reached_at is not None):
-            probe.append(one_run(maze.new_world(maze.B)))
+            probe.append(one_run(maze.B))
         return InsightRow.of(seed, training, probe)
 
     def summarise(self, rows: Sequence[tuple[InsightRow, InsightRow]]) -> Findings:
@@ -80,15 +80,10 @@ class Insight(Study[int, tuple[InsightRow, InsightRow]]):
         first: dict[str, Share] = {name: part["route_3_first"] for name, part in parts.items()}
         test: Any = stats.fisher_exact([[s.count, s.of - s.count] for s in first.values()], alternative="greater")
         p_value = float(test.pvalue)  # one-sided: the agents try route 3 first no more often than the controls
-        protocol = {
-            "start": maze.START,
-            "closed": maze.B,
-            "training_runs": self.runs,
-            "steps_a_run": maze.STEPS,
-            "control": f"tabular Q-learning, {WANDER} random steps before its training",
-        }
+        control = f"tabular Q-learning, {WANDER} random steps before its training"
+        protocol = {"start": maze.START, "closed": maze.B, "training_runs": self.runs, "steps_a_run": maze.STEPS}
         summary = {**parts, "rats": {"route_3_first": RATS}, "p_value": p_value}
-        json = {"world": maze.MAZE.name, "protocol": protocol, "rows": groups["agents"], "controls": groups["controls"]}
+        json = {"world": maze.MAZE.name, "protocol": {**protocol, "control": control}, "rows": groups["agents"]}
         lines = [*_lines("agents", parts["agents"]), *_lines("controls without a map", parts["controls"])]
         lines.append(f"rats (Tolman and Honzik 1930): {_text(RATS)}")
         lines.append(f"agents over controls, Fisher's exact test: p = {p_value:.2g}")
@@ -97,18 +92,18 @@ class Insight(Study[int, tuple[InsightRow, InsightRow]]):
             failed += failed_seeds(f"{name} never met the block", group, lambda row: row.choice is None)
             failed += failed_seeds(f"{name} did not reach the goal again", group, lambda row: row.steps_to_goal is None)
         figures = {"insight_choice": partial(_figure, groups, first)}
-        return Findings({**json, "summary": summary}, lines, figures, failed=failed)
+        return Findings({**json, "controls": groups["controls"], "summary": summary}, lines, figures, failed=failed)
 
 
-def _control(seed: int) -> Callable[[MazeEnv], TolmanRun]:
+def _control(seed: int) -> Callable[[Position | None], TolmanRun]:
     habit = HabitAgent(GRID, goal=maze.SIGHT, explore=1.0, seed=seed)
     maze.walk(habit, maze.new_world(), steps=WANDER)
 
-    def one_run(world: MazeEnv) -> TolmanRun:
+    def one_run(closed: Position | None) -> TolmanRun:
         """From the start; with B closed it does what it is used to."""
-        habit.explore = 0.0 if world.closed_rooms else 0.1
+        habit.explore = 0.0 if closed else 0.1
         habit.restart()
-        return TolmanRun.of(*maze.walk(habit, world), world)
+        return TolmanRun.of(*maze.walk(habit, maze.new_world(closed)), closed)
 
     return one_run
 
@@ -167,9 +162,9 @@ def _figure(groups: dict[str, list[InsightRow]], first: dict[str, Share]) -> Fig
     return figure
 
 
-def _after(row: InsightRow) -> list[Sequence[Position]]:
+def _after(row: InsightRow) -> list[Way]:
     """The paths from the first sight of the block on, up to the run in which something was chosen."""
-    paths: list[Sequence[Position]] = []
+    paths: list[Way] = []
     steps = 0
     for run in row.probe:
         since = run.met_at if not paths else 0

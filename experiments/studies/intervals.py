@@ -42,14 +42,9 @@ class Share:
 
 
 def bootstrap(values: Sequence[float], over: Sequence[float] | None = None) -> Interval | None:
-    """The mean of `values`, or their total over the total of `over`, with its percentile bootstrap interval.
+    """The mean of `values`, one a run, or their total over the total of `over`, with its percentile bootstrap interval.
 
-    Args:
-        values: one a run.
-        over: one a run, paired with `values`; a resample in which they add up to 0 is left out.
-
-    Returns:
-        None of no runs, and where `over` adds up to 0.
+    None of no runs, and where `over` adds up to 0; a resample in which it does is left out.
     """
     over = [1.0] * len(values) if over is None else over
     if not sum(over):

@@ -33,15 +33,10 @@ CONDITIONS: dict[str, Look] = {
     "told_doors": {"color": GREEN, "linestyle": ":", "marker": "^"},
     "told_sights": {"color": VERMILION, "linestyle": "-.", "marker": "D"},
 }
-"""What the agent has to go by, and the look of its line. Told: that it was moved, by P(moved) = 1 at the first
-observation after; if not, it has its prior alone. Doors: those it senses are evidence of where it is (they always show
-which ways are open). Told by sights alone is the paper's: its model has no likelihood of doors."""
-TEXTS = {
-    "silent_doors": "not told, sights and doors",
-    "silent_sights": "not told, sights alone",
-    "told_doors": "told, sights and doors",
-    "told_sights": "told, sights alone",
-}
+"""What the agent has to go by, and the look of its line. Told: P(moved) = 1 at the first observation; or else it has
+its prior alone. Doors: they are evidence of where it is. The paper's is told, by sights alone."""
+_BY = {"doors": "sights and doors", "sights": "sights alone"}
+TEXTS = {name: f"{'not ' * name.startswith('silent')}told, {_BY[name.partition('_')[2]]}" for name in CONDITIONS}
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,12 +114,9 @@ class Localisation(Study[int, LocalisationRow]):
         trials = {name: [t for row in rows for t in row.trials if t.condition == name] for name in CONDITIONS}
         conditions = {name: _summary(part) for name, part in trials.items()}
         goals = [room for room in MAZE.rooms if MAZE.sights[room] == GOAL]
-        summary = {
-            "agents": len(rows),
-            "explored": sum(row.steps_to_explore is not None for row in rows),
-            "shortest": min(len(shortest_path(MAZE, FOOT, room)) - 1 for room in goals),
-            "conditions": conditions,
-        }
+        shortest = min(len(shortest_path(MAZE, FOOT, room)) - 1 for room in goals)
+        done = sum(row.steps_to_explore is not None for row in rows)
+        summary = {"agents": len(rows), "explored": done, "shortest": shortest, "conditions": conditions}
         protocol = {"moved_to": FOOT, "goal": GOAL, "weight": WEIGHT, "candidate": CANDIDATE, "max_moves": MOST}
         json = {"world": MAZE.name, "protocol": {**protocol, "conditions": TEXTS}, "rows": rows, "summary": summary}
         ways = {f"localisation_{name}": partial(_way, trials[name][0]) for name in SHOWN if trials[name]}
@@ -156,16 +148,10 @@ def _trial(session: Session, condition: str) -> Trial:
         agent = _with(agent, floor, own.filter.displacement)
     if not reached:
         run(world, agent, steps=MOST, begin=first.end, watch=note)
-    return Trial(
-        condition=condition,
-        steps=tuple(steps),
-        reached=reached,
-        steps_to_localise=next((t for t, step in enumerate(steps) if step.certain and step.right), None),
-        steps_certain_but_wrong=sum(step.certain and not step.right for step in steps),
-        map_intact=session.truth.learned(agent.map),
-        first="split" if not steps[0].certain else "right" if steps[0].right else "wrong",
-        moves=len(steps) - 1,
-    )
+    found = next((t for t, step in enumerate(steps) if step.certain and step.right), None)
+    wrong, intact = sum(step.certain and not step.right for step in steps), session.truth.learned(agent.map)
+    first_held = "split" if not steps[0].certain else "right" if steps[0].right else "wrong"
+    return Trial(condition, tuple(steps), reached, found, wrong, intact, first_held, len(steps) - 1)
 
 
 def _with(agent: Agent, door_floor: float, displacement: float) -> Agent:
@@ -181,15 +167,12 @@ def _step(moment: Moment, session: Session) -> LocalisationStep:
     belief, map_, room = agent.belief, agent.map, moment.info["position"]
     q = np.array(list(belief.places.values()))
     places = [(place, map_.position(place)) for place in map_.visited_places.tolist()]
-    held = [
-        Held(place, (session.start[0] + at[0], session.start[1] + at[1]), belief.places.get(place, 0.0))
-        for place, at in places
-        if at is not None
-    ]
+    rooms = [(place, (session.start[0] + at[0], session.start[1] + at[1])) for place, at in places if at is not None]
+    held = [Held(place, of, belief.places.get(place, 0.0)) for place, of in sorted(rooms, key=lambda item: item[1])]
     return LocalisationStep(
         room=room,
         sight=MAZE.sights[room],
-        posterior=tuple(sorted(held, key=lambda one: one.room)),
+        posterior=tuple(held),
         entropy=max(0.0, float(-(q * np.log(q)).sum())),
         certainty=belief.certainty,
         certain=agent.certain,

@@ -32,14 +32,12 @@ PROBES = 7  # runs with B closed on the last day
 MOST = 60  # steps after which a run is given up; it ends at the goal (the original has no limit)
 CONDITIONS = {"free": (1, 2, 3), "A closed": (2, 3), "B closed": (2, 3)}
 """Conditions, and the routes that count in each: route 1 is left out where it is closed, as in the original."""
-TITLES = {"free": "first day, nothing closed", "A closed": "A closed", "B closed": "last day, B closed"}
 EXPECTED = (("free", 1, 2), ("free", 1, 3), ("A closed", 2, 3), ("B closed", 3, 2))
 """Under which condition which route was taken more often than which by the animals of Martinet et al., each with
 p < 0.0001 (ANOVA)."""
 ENTRANCES: dict[int, Door] = {route: (START, room) for room, route in BRANCHES.items()}
 BOUNDS = ("0.0001", "0.001", "0.01", "0.05", "1")  # usual ones, of a p
 
-Counts = dict[int, int]  # runs by route
 Shares = dict[str, dict[int, Interval | None]]  # by condition and route
 
 
@@ -58,7 +56,7 @@ class MartinetRow:
     """One agent."""
 
     seed: int
-    counts: dict[str, Counts]  # by condition; of the free runs those of the first day alone
+    counts: dict[str, dict[int, int]]  # by condition and route; of the free runs those of the first day alone
     runs: tuple[Run, ...]
 
     @classmethod
@@ -110,15 +108,9 @@ class Martinet(Study[int, MartinetRow]):
         }
         preferences = [_preference(rows, *expected) for expected in EXPECTED]
         reached = sum(run.steps is not None for run in runs)
-        protocol = {
-            "start": START,
-            "days": self.days,
-            "forced_runs": len(ROUTES),
-            "free_runs_first_day": FREE,
-            "runs_with_A_closed_a_day": BLOCKED,
-            "runs_with_B_closed": PROBES,
-            "most_steps_a_run": MOST,
-        }
+        runs_a_day = {"forced_runs": 3, "free_runs_first_day": FREE, "runs_with_A_closed_a_day": BLOCKED}
+        protocol = {"start": START, "days": self.days, **runs_a_day}
+        protocol |= {"runs_with_B_closed": PROBES, "most_steps_a_run": MOST}
         counted = {"agents": len(rows), "runs": len(runs), "reached": reached}
         summary = {**counted, "shares": shares, "preferences": preferences}
         json = {"world": maze.MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
@@ -161,10 +153,9 @@ def _of_all(rows: Sequence[MartinetRow], condition: str, values: Sequence[int]) 
 
 
 def _preference(rows: Sequence[MartinetRow], condition: str, more: int, less: int) -> dict[str, Any]:
-    """How much more often one route is taken than the other: difference of the shares, mean of the agents.
+    """How much more often one route is taken, mean of the agents; None if neither ever was.
 
-    It is None if neither was ever taken; p is that of Wilcoxon's signed-rank test over the agents, one-sided, None with
-    fewer than two.
+    p is that of Wilcoxon's signed-rank test over the agents, one-sided; None with fewer than two.
     """
     differences = [row.counts[condition][more] - row.counts[condition][less] for row in rows]
     test: Any = stats.wilcoxon(differences, alternative="greater") if any(differences) else None
@@ -193,12 +184,13 @@ def _figure(agents: int, days: int, shares: Shares, preferences: Sequence[dict[s
     title = f"Routes chosen by {who} after {long} of training, mean with 95 % intervals (bootstrap over agents)"
     widths = [len(part) for part in shares.values()]
     figure, axes = panels(title, (1, 3), (10.5, 4.4), sharey=True, width_ratios=widths)
-    for ax, (name, part) in zip(axes, shares.items(), strict=True):
+    titles = ("first day, nothing closed", "A closed", "last day, B closed")
+    for ax, (name, part), heading in zip(axes, shares.items(), titles, strict=True):
         texts, colours = [f"{share.value:.0%}" if share else "" for share in part.values()], maze.COLOURS
         there = [colours[route] for route, share in part.items() if share is not None]
         plot_bars(ax, range(len(part)), list(part.values()), texts=texts, width=0.65, color=there)
         ax.set_xticks(range(len(part)), [f"route {route}" for route in part])
-        ax.set_title(TITLES[name], fontsize=12)
+        ax.set_title(heading, fontsize=12)
         for number, one in enumerate(one for one in preferences if one["condition"] == name):
             _bracket(ax, one["more"], one["less"], one["p_value"], CONDITIONS[name], 1.1 + 0.1 * number)
     shares_axis(axes[0], "share of the runs that count", high=1.32)

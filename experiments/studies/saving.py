@@ -28,14 +28,8 @@ LARGEST = 1_000_000  # bytes of a drawing (SVG) above which a page holds the pic
 def write_study(folder: Path, study: AnyStudy, found: Findings, head: Mapping[str, Any]) -> list[Path]:
     """Write everything into a folder that is there; answers with the files, the JSON first and the report last.
 
-    Args:
-        folder: where.
-        study: which it was.
-        found: what came of it.
-        head: what it takes to run it again, plain JSON; stands before what was found.
-
-    Raises:
-        CogmapError: a file cannot be written; those before it are whole.
+    `head`, what it takes to run the study again, stands before what was found. Where a file cannot be written
+    (CogmapError) those before it are whole.
     """
     json, (title, question), figures = plain(found.json), study.asks, list[tuple[str, str]]()
     tables, written = found.tables, [folder / f"{study.name}.json"]
@@ -57,14 +51,7 @@ def write_study(folder: Path, study: AnyStudy, found: Findings, head: Mapping[st
 def write_report(stem: Path, title: str, values: Mapping[str, Any], **parts: Any) -> list[Path]:
     """Write a report as Markdown, and with its pictures inside as HTML; answers with the files.
 
-    Args:
-        stem: of the files.
-        title: of the report.
-        values: of the JSON: `command`, and those of `FACTS` that are there.
-        parts: what else stands in it, see `report.jinja`.
-
-    Raises:
-        CogmapError: a file cannot be written.
+    Of `values` it shows `command` and those of `FACTS` that are there; its other parts are those of `report.jinja`.
     """
     how: dict[str, Any] = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
     templates = Environment(loader=FileSystemLoader(Path(__file__).parent), **how)

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib import import_module
 from inspect import getdoc
@@ -84,13 +84,13 @@ class Study(ABC, Generic[Task, Row]):
         ledger: Ledger | None = None,
         on_done: Callable[[], None] = lambda: None,
     ) -> list[Row]:
-        """Do all tasks.
+        """Do all tasks, in the executor or, without one, here; the rows do not depend on it.
 
         Args:
             agents: how many take part; agent i has the seed `seed` + i.
             seed: of the first.
             settings: of the agents.
-            executor: where the tasks are done, in this process if None; the rows do not depend on it.
+            executor: any of `concurrent.futures`.
             ledger: see `ledger`.
             on_done: called after each task.
 
@@ -105,6 +105,10 @@ class Study(ABC, Generic[Task, Row]):
             rows[number] = row
             on_done()
         return [rows[number] for number in range(len(tasks))]
+
+    def looking(self, look_ahead: int | None) -> Settings:
+        """The settings, with another look-ahead if one is given; below 1 it is refused (CogmapError)."""
+        return self.settings if look_ahead is None else replace(self.settings, look_ahead=look_ahead)
 
     @property
     def asks(self) -> tuple[str, str]:
@@ -139,11 +143,7 @@ def study_named(name: str) -> AnyStudy:
 
 
 def at_least(who: str, least: int, **counts: int) -> None:
-    """Refuse counts below `least`.
-
-    Raises:
-        CogmapError: one is.
-    """
+    """Refuse counts below `least` (CogmapError)."""
     for name, count in counts.items():
         if count < least:
             raise CogmapError(f"{who}: {name} is {count}; use {least} or more")

@@ -15,8 +15,6 @@ MAIN = ("rows", "runs")  # what a study calls its main rows
 MOST_ROWS, MOST_COLUMNS = 45, 9
 """Of a table read off JSON that the report shows."""
 
-_Tables = dict[str, list[dict[str, Value]]]
-
 
 @dataclass(frozen=True, slots=True)
 class Table:
@@ -71,7 +69,7 @@ def tables_of(study: str, found: Mapping[str, Any]) -> list[Table]:
     Objects in a row get dotted columns; a list of objects in it gets a table of its own, in which the seed of the row
     is repeated, or else its number.
     """
-    tables: _Tables = {}
+    tables: dict[str, list[dict[str, Value]]] = {}
     for key, value in sorted(found.items(), key=lambda item: item[0] not in MAIN):
         name = study if key in MAIN else f"{study}_{key}"
         if key == "summary" and isinstance(value, Mapping):
@@ -91,7 +89,7 @@ def _record(value: Any) -> dict[str, Any]:
     return {field.name: getattr(value, field.name) for field in fields(value)} if own is None else own()
 
 
-def _collect(tables: _Tables, name: str, key: str, value: Any, owner: Mapping[str, Value]) -> None:
+def _collect(tables: dict[str, Any], name: str, key: str, value: Any, owner: Mapping[str, Value]) -> None:
     parts = [(value, owner)] if isinstance(value, Mapping) else []
     for number, row in enumerate(value if _is_rows(value) else ()):
         whose = {**owner, **({"seed": row["seed"]} if "seed" in row else {key.removesuffix("s"): number})}

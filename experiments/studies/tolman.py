@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -75,8 +75,7 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
         value, seed = task
         agent, blocks = maze.new_agent(replace(settings, information_weight=value), seed), dict[str, Runs]()
         for block, closed in BLOCKS.items():
-            world = maze.new_world(closed)
-            blocks[block] = tuple(maze.agent_run(agent, world) for _ in range(self.runs))
+            blocks[block] = tuple(maze.agent_run(agent, closed) for _ in range(self.runs))
         choices = {block: maze.choice_after(runs) for block, runs in blocks.items()}
         after = {block: choice and choice.route for block, choice in choices.items()}
         return value, TolmanRow(seed, len(agent.map.places), after, blocks)
@@ -128,11 +127,7 @@ def _why(counts: Counts) -> str:
 
 
 def _setting(value: float, rows: Sequence[TolmanRow]) -> dict[str, Any]:
-    """All that was found with one value of the knob.
-
-    The distance from the paper's table is the total variation of the shares by route and of missed runs, mean of the
-    blocks.
-    """
+    """What was found with one value of the knob; its distance from the paper's table is the mean total variation."""
     blocks = {block: counted(rows, block) for block in BLOCKS}
     apart = [total_variation(compared(counts, block), PAPER[block]) for block, counts in blocks.items()]
     return {"value": value, "agents": len(rows), "distance": sum(apart) / len(apart), "blocks": blocks}
@@ -146,12 +141,12 @@ def _lines(blocks: dict[str, Counts], knob: Sequence[dict[str, Any]], nearest: d
     lines: list[str] = []
     for block, counts in blocks.items():
         missed = f"; missed: {_why(counts)}" if _why(counts) else ""
-        counted = "attempts" if block == "B closed" else "reached"
+        how = "attempts" if block == "B closed" else "reached"
         lines += [
             f"{block}: {counts['goal_reached'].count} of {counts['runs']} runs reached the goal{missed}",
-            f"  reached by route 1, 2, 3   {_counted([*counts['reached'].values()])}",
-            f"  set out on route 1, 2, 3   {_counted([*counts['attempted'].values()])}",
-            f"  the paper ({counted})".ljust(29) + _counted(_paper(block)[:3]),
+            f"  reached by route 1, 2, 3   {_counted(counts['reached'].values())}",
+            f"  set out on route 1, 2, 3   {_counted(counts['attempted'].values())}",
+            f"  the paper ({how})".ljust(29) + _counted(_paper(block)[:3]),
         ]
         if BLOCKS[block] is not None:
             after = counts["agents_by_first_route_after_the_block"]
@@ -165,7 +160,7 @@ def _paper(block: str) -> list[Share]:
     return [wilson(count, PAPER_RUNS) for count in PAPER[block]]
 
 
-def _counted(shares: Sequence[Share]) -> str:
+def _counted(shares: Iterable[Share]) -> str:
     return "  ".join(f"{s.count:3d} ({s.share:4.0%}, {s.low:.0%} to {s.high:.0%})" for s in shares)
 
 

@@ -12,7 +12,7 @@ from ...model import Priors
 from ...views import BLUE, GREEN, ORANGE, theme_of
 from ...worlds import GRID, MAZES, Door, Label, MazeEnv, Position, shortest_path
 from .. import Moment, run
-from .figures import Axes, Look, plot_flow
+from .figures import Axes, Look, Way, plot_flow
 
 MAZE = MAZES["tolman"]
 START: Position = (6, 2)
@@ -58,10 +58,14 @@ class TolmanRun:
 
     @classmethod
     def of(
-        cls, path: Sequence[Position], reached_at: int | None, world: MazeEnv, knew: bool = True, wrong: int = 0
+        cls,
+        path: Sequence[Position],
+        reached_at: int | None,
+        closed: Position | None,
+        knew: bool = True,
+        wrong: int = 0,
     ) -> TolmanRun:
-        """What this path came to in this world; `knew`: whether the agent had seen the goal before this run."""
-        closed = next(iter(world.closed_rooms), None)
+        """What this path comes to; `knew`: whether the agent had seen the goal before this run."""
         attempted = next((BRANCHES[to] for at, to in pairwise(path) if at == START and to in BRANCHES), None)
         route = None if reached_at is None else [GATES[room] for room in path[: reached_at + 1] if room in GATES][-1]
         met_at = path.index(BEFORE[closed]) if closed in BEFORE and BEFORE[closed] in path else None
@@ -111,7 +115,7 @@ def new_agent(settings: Settings, seed: int) -> Agent:
 
 
 def new_world(closed: Position | None = None, doors: Sequence[Door] = ()) -> MazeEnv:
-    """The maze with this room and these doors closed, and somebody at the start."""
+    """The maze with this room and these doors closed, and somebody at the start, put there without a word."""
     world = MazeEnv(MAZE)
     world.reset(options={"start": START})
     if closed is not None:
@@ -121,37 +125,34 @@ def new_world(closed: Position | None = None, doors: Sequence[Door] = ()) -> Maz
     return world
 
 
-def agent_run(agent: Agent, world: MazeEnv) -> TolmanRun:
+def agent_run(agent: Agent, closed: Position | None = None) -> TolmanRun:
     """One run of an agent that was first put at the start, and has been put there again now without a word."""
     knew, wrong = agent.map.sights.find(SIGHT) is not None, list[bool]()
 
     def watch(moment: Moment) -> None:
-        row, column = world.position
+        row, column = moment.info["position"]
         wrong.append(agent.belief.place != agent.map.place_at((row - START[0], column - START[1])))
 
-    path, reached_at = walk(agent, world, watch=watch)
-    return TolmanRun.of(path, reached_at, world, knew, sum(wrong))
+    return TolmanRun.of(*walk(agent, new_world(closed), watch=watch), closed, knew, sum(wrong))
 
 
 def walk(
     walker: Any, world: MazeEnv, *, steps: int = STEPS, ends: bool = False, watch: Callable[[Moment], object] = bool
-) -> tuple[Sequence[Position], int | None]:
-    """The rooms of a run from the start, where the walker is put without a word, and the step at which it chose to stay
-    at the goal, where the run `ends` or goes on.
-    """
+) -> tuple[Way, int | None]:
+    """The rooms of a run from the start, and the step at which it was chosen to stay at the goal, where it may end."""
     reached: list[int] = []
 
     def look(moment: Moment) -> bool:
         watch(moment)
-        if world.position == GOAL and moment.action == STAY:
+        if moment.info["position"] == GOAL and moment.action == STAY:
             reached.append(moment.step)
         return ends and bool(reached)
 
-    begin = world.displace(START), {"position": START}
+    begin = world.observe(), {"position": START}
     return run(world, walker, steps=steps, begin=begin, watch=look).truth, reached[0] if reached else None
 
 
-def plot_tolman(ax: Axes, paths: Sequence[Sequence[Position]], *, closed: Position | None) -> None:
+def plot_tolman(ax: Axes, paths: Sequence[Way], *, closed: Position | None) -> None:
     """How often each door was walked through, and what the rooms are called."""
     from matplotlib.patheffects import withStroke
 
@@ -165,7 +166,7 @@ def plot_tolman(ax: Axes, paths: Sequence[Sequence[Position]], *, closed: Positi
     ax.set_ylim(max(ax.get_ylim()[0], 6.95), min(ax.get_ylim()[1], -0.95))
 
 
-def _missed(path: Sequence[Position], closed: Position | None, met_at: int | None, knew: bool, wrong: int) -> str:
+def _missed(path: Way, closed: Position | None, met_at: int | None, knew: bool, wrong: int) -> str:
     if not knew:
         return "searching"
     if 2 * wrong > len(path):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .base import Context, ModelFactor, Successors, Support, Table
+from .base import Context, ModelFactor, Successors, Support, Table, parts_of
 from .displacement import Displacement
 from .pose import POSES, Ahead, Lattice, NoPose, Pose
 from .sensor import Sensor
@@ -34,4 +34,5 @@ __all__ = [
     "Table",
     "Transition",
     "Ways",
+    "parts_of",
 ]

@@ -179,7 +179,15 @@ class ModelFactor:
         Raises:
             CogmapError, KeyError: they do not fit.
         """
+        self.grow(places)
+        for store in self.stores:
+            store.restore(parts_of(store, arrays))
 
     def tables(self, support: Support) -> Iterable[Table]:
         """Its factors at one time step of the window's graph."""
         return ()
+
+
+def parts_of(store: Store, arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """The state of a store among the arrays of a file."""
+    return {part: arrays[f"{store.name}.{part}"] for part in store.state()}

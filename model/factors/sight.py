@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..changes import Store
-from ..dirichlet import SparseDirichlet, parts_of
+from ..dirichlet import SparseDirichlet
 from ..domain import Domain
 from ..errors import CogmapError
 from ..growth_event import GrowthEvent
 from ..information import information
 from ..labels import decode, encode
-from .base import Context, Floats, Ints
+from .base import Context, Floats, Ints, parts_of
 from .sensor import Sensor
 from .sight_index import SightIndex
 from .transition import Transition
@@ -78,7 +78,7 @@ class Sight(Sensor):
         self.labels.extend(decode(label) for label in state["labels"])
         self.table.outcomes = len(self.labels) + 1
         self.grow(places)
-        self.table.restore(parts_of(self.symbol, arrays), outcomes=len(self.labels))
+        self.table.restore(parts_of(self.table, arrays), outcomes=len(self.labels))
 
     def check(self, value: Any) -> Hashable:
         """The label, as a plain hashable value."""

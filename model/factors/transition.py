@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from ..changes import Store
 from ..column import Column
-from ..dirichlet import EMPTY, SparseDirichlet, parts_of
+from ..dirichlet import EMPTY, SparseDirichlet
 from ..information import information
 from ..percept import Percept
-from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table
+from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table, parts_of
 
 ELSEWHERE = -1
 """Successor that is no place of the map yet."""
@@ -64,9 +64,9 @@ class Transition(ModelFactor):
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over the arrays."""
         self.grow(places)
-        self.table.restore(parts_of("B_s", arrays), outcomes=places)
-        self.sensed.restore(arrays["sensed.values"], least=UNKNOWN, bound=BLOCKED + 1)
-        self.walked.restore(arrays["walked.values"], least=0, bound=2)
+        self.table.restore(parts_of(self.table, arrays), outcomes=places)
+        self.sensed.restore(parts_of(self.sensed, arrays), least=UNKNOWN, bound=BLOCKED + 1)
+        self.walked.restore(parts_of(self.walked, arrays))
 
     # -- reading -------------------------------------------------------------------------------------------
 

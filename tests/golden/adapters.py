@@ -14,6 +14,7 @@ from cogmap.agent import Agent, Settings
 from cogmap.inference import FilterOptions
 from cogmap.model import TABLE_RATES, TEXT_RATES, Priors
 from numpy.typing import NDArray
+from parts import parts_of
 
 Facts = dict[str, Any]
 
@@ -31,8 +32,9 @@ PARTS: dict[str, Callable[[Any], Any]] = {
 
 def agent_of(motions: Any, settings: dict[str, Any], *, seed: int) -> Agent:
     """The agent that a walk's plain settings speak of."""
-    made: dict[str, Any] = {name: PARTS[name](value) if name in PARTS else value for name, value in settings.items()}
-    return Agent(motions, settings=Settings(**made), seed=seed)
+    parts, numbers = parts_of(settings)
+    made: dict[str, Any] = {name: PARTS[name](value) if name in PARTS else value for name, value in numbers.items()}
+    return Agent(motions, **parts, settings=Settings(**made), seed=seed)
 
 
 def reloaded(agent: Agent) -> Agent:

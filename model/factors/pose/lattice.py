@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from ...changes import Store
 from ...column import Column
-from ...dirichlet import SparseDirichlet, parts_of
+from ...dirichlet import SparseDirichlet
 from ...domain import Domain
 from ...errors import CogmapError
 from ...growth_event import GrowthEvent
 from ...information import information
 from ...labels import decode, encode
 from ...motions import Position
-from ..base import Context, Floats, Ints, Support, Table
+from ..base import Context, Floats, Ints, Support, Table, parts_of
 from .base import Ahead, Pose
 
 
@@ -79,9 +79,9 @@ class Lattice(Pose):
         for position in state["positions"]:
             self._add(cast(Position, decode(position)))
         self.grow(places)
-        self.table.restore(parts_of("A_p", arrays), outcomes=len(self.positions))
-        self.position_of.restore(arrays["position_of.values"], least=-1, bound=len(self.positions))
-        self.places.restore(arrays["place_at.values"], least=-1, bound=places)
+        self.table.restore(parts_of(self.table, arrays), outcomes=len(self.positions))
+        self.position_of.restore(parts_of(self.position_of, arrays), least=-1, bound=len(self.positions))
+        self.places.restore(parts_of(self.places, arrays), least=-1, bound=places)
 
     # -- reading -------------------------------------------------------------------------------------------
 

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
 from ...dirichlet import SparseDirichlet
 from ...domain import Domain
@@ -27,10 +23,6 @@ class NoPose(Pose):
     def grow(self, places: int) -> None:
         """No counts at all."""
         self.table.resize(places)
-
-    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
-        """Nothing but how many places there are."""
-        self.grow(places)
 
     def of(self, places: Ints) -> Ints:
         """`[n]` zeros."""
