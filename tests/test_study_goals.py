@@ -88,7 +88,9 @@ def test_what_is_left(tmp_path: Path) -> None:
     report = json.loads((tmp_path / "goals.json").read_text())
     assert [row["seed"] for row in report["runs"]] == [5] * 16
     assert [row["runs"] for row in report["summary"]] == [1] * 16
-    assert (report["weight"], Settings.from_dict(report["settings"])) == (8.0, Settings())
+    own = {name: report["settings"][name] for name in Settings().to_dict()}  # the others name the agent's parts
+    assert (report["weight"], Settings.from_dict(own)) == (8.0, Settings())
+    assert (report["settings"]["growth"], report["settings"]["policies"]) == ("predicted", "map_guided")
 
 
 def test_bars_are_the_means() -> None:
