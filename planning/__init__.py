@@ -2,7 +2,6 @@
 
 from .choices import CHOICES, TIE, Best, Choice, Outward, Sampled, Verdict
 from .energy import ExpectedFreeEnergy
-from .information import dirichlet_information
 from .local import (
     LocalCache,
     LocalModel,
@@ -68,7 +67,6 @@ __all__ = [
     "Transitions",
     "Utility",
     "Verdict",
-    "dirichlet_information",
     "evaluate",
     "evaluate_plain",
     "local_model",

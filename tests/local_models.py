@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from cogmap.model.motions import Motions
-from cogmap.planning import LocalModel, Transitions, dirichlet_information
+from cogmap.model import Motions, dirichlet_information
+from cogmap.planning import LocalModel, Transitions
 
 GRID = Motions(("up", "down", "left", "right", "stay"), ((-1, 0), (1, 0), (0, -1), (0, 1), (0, 0)))
 LINE = Motions(("back", "on", "stay"), ((-1,), (1,), (0,)))

@@ -6,8 +6,8 @@ from itertools import product
 
 import numpy as np
 import pytest
-from cogmap.model.errors import CogmapError
-from cogmap.planning import Rollout, dirichlet_information
+from cogmap.model import CogmapError, dirichlet_information
+from cogmap.planning import Rollout
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from local_models import random_model

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...model import ELSEWHERE, CogmapError
-from ..information import dirichlet_information
 from .rows import Rows
 from .transitions import Floats, Ints, likeliest
 from .view import MapView
@@ -27,7 +25,7 @@ class PlaceRows:
         ways: `[n, N + 1]` nats that visits teach of B_s by their ways.
         positions: `[n, N + 1]` nats that visits teach of A_p.
         position: `[n, D]` where each place is; NaN where nobody knows.
-        sights: `[n, N + 1]` nats that visits teach of A_o.
+        sights: `[n, N + 1]` nats that visits teach of the sights.
     """
 
     successors: Ints
@@ -56,7 +54,7 @@ class LocalCache:
         self._ways, self._sights = Rows(self._new_ways), Rows(self._new_sights)
         self._beside: dict[int, list[int]] = {}  # where each place may lead to
         self._read = -1  # of the log of changes
-        self._outcomes = 0
+        self._outcomes: list[int] = []
 
     def check(self, map_: MapView, look_ahead: int) -> None:
         """Raise `CogmapError` unless it is of this map, and tells of enough visits for this look-ahead."""
@@ -69,14 +67,16 @@ class LocalCache:
         """Forget what has changed since the last call."""
         map_, read = self._map, self._read
         ways, _ = map_.changed_places(read, map_.B_s, map_.A_p, map_.visits)
-        sights, self._read = map_.changed_places(read, map_.A_o)
+        tables = [sensor.table for sensor in map_.sights_sensed]
+        sights, self._read = map_.changed_places(read, *(tables or [map_.A_o]))
         self._ways.forget(ways)
         if ways is None:
             self._beside.clear()
         for place in ways or ():
             self._beside.pop(place, None)
-        self._sights.forget(sights if map_.A_o.outcomes == self._outcomes else None)
-        self._outcomes = map_.A_o.outcomes
+        outcomes = [table.outcomes for table in tables]
+        self._sights.forget(sights if outcomes == self._outcomes else None)
+        self._outcomes = outcomes
 
     def rows(self, places: Ints) -> PlaceRows:
         """All of these places, and a row of zeros at the end."""
@@ -102,8 +102,9 @@ class LocalCache:
         return self._ways.column(2, places)
 
     def unseen(self) -> Floats:
-        """`[N + 1]` what visits teach of A_o in a place never imagined."""
-        return _row_information(np.array([self._map.A_o.background, self._map.A_o.outcomes]).tobytes(), self.visits)
+        """`[N + 1]` what visits teach of the sights in a place never imagined."""
+        told = (sensor.information_unseen(self.visits) for sensor in self._map.sights_sensed)
+        return sum(told, np.zeros(self.visits + 1))
 
     def _new_ways(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         map_, size = self._map, len(self._map.motions)
@@ -111,41 +112,13 @@ class LocalCache:
         keys, alpha = keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
         p = alpha / alpha.sum(axis=2, keepdims=True)
         likely, blocked = likeliest(keys, p, places, ELSEWHERE)
-        # a look teaches nothing where a visit has shown all it can, and no place lies beyond
-        shown = map_.visited[places][:, None] & (keys == ELSEWHERE).any(axis=2)
-        of_ways = (_information(alpha, self.visits) * ~shown[..., None]).sum(axis=1)
-        of_positions = _information(map_.A_p.concentration(places)[1], self.visits)
+        of_ways = map_.transitions.information(places, self.visits)
+        of_positions = map_.pose.information(places, self.visits)
         unknown = (np.nan,) * len(map_.motions.displacements[0])
         positions = [unknown if (at := map_.position(place)) is None else at for place in places.tolist()]
         position = np.array(positions, dtype=np.float64).reshape(len(places), -1)
         return keys, p, likely, blocked, of_ways, of_positions, position
 
     def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
-        _, alpha, others = self._map.A_o.concentration(places)
-        slots = alpha.shape[1]
-        alpha = np.concatenate([alpha, np.full((len(places), 1), self._map.A_o.background)], axis=1)
-        many = np.ones((len(places), slots + 1))
-        many[:, -1] = others
-        return (_information(alpha, self.visits, many),)
-
-
-def _information(alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:
-    """`dirichlet_information` of `[..., O]` concentrations; rows met before are looked up."""
-    outcomes = alpha.shape[-1]
-    if outcomes == 1 and multiplicity is None:  # one outcome teaches nothing
-        return np.zeros((*alpha.shape[:-1], steps + 1))
-    many = np.ones_like(alpha) if multiplicity is None else multiplicity
-    packed = np.concatenate([alpha, many], axis=-1).tobytes()
-    width = 16 * outcomes
-    table = [_row_information(packed[i : i + width], steps) for i in range(0, len(packed), width)]
-    return np.array(table).reshape(*alpha.shape[:-1], steps + 1)
-
-
-@lru_cache(maxsize=1 << 14)
-def _row_information(packed: bytes, steps: int) -> Floats:
-    """One row: its concentrations, then their multiplicities."""
-    both = np.frombuffer(packed).reshape(2, -1)
-    alpha, many = both[:, both[0] > 0.0]  # to the bit the same, however many slots are unused
-    if many.sum() <= 1.0:  # one outcome teaches nothing
-        return np.zeros(steps + 1)
-    return dirichlet_information(alpha, steps, multiplicity=many)
+        told = (sensor.information(places, self.visits) for sensor in self._map.sights_sensed)
+        return (sum(told, np.zeros((len(places), self.visits + 1))),)

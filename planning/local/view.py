@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import Motions, SparseDirichlet
+from ...model import Motions, Pose, Sight, SparseDirichlet, Transition
 
 Ints = NDArray[np.int64]
 
@@ -21,6 +21,9 @@ class MapView(Protocol):
         A_o: P(sight | place), a row a place.
         A_p: P(position | place), a row a place.
         B_s: P(next place | place, action), its rows named by `rows_of`; the outcome -1 is a place never imagined.
+        sights_sensed: the sensors that see labels, each with what visits teach of it.
+        transitions: what looks at ways teach of B_s.
+        pose: what visits teach of A_p.
         visits: what `changed_places` is asked about, for first visits.
     """
 
@@ -28,6 +31,9 @@ class MapView(Protocol):
     A_o: SparseDirichlet
     A_p: SparseDirichlet
     B_s: SparseDirichlet
+    sights_sensed: tuple[Sight, ...]
+    transitions: Transition
+    pose: Pose
     visits: Any
 
     @property
