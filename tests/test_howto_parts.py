@@ -114,3 +114,33 @@ def test_an_agent_that_sees_nothing_but_ways_walks() -> None:
         observation, *_ = world.step(agent.step({"open": observation["open"]}))
         assert_agent_is_sound(agent)
     assert agent.map.visited.sum() > 8
+
+
+def test_a_term_outside_of_the_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = written("add_a_term", tmp_path, monkeypatch)
+    agent, effort, np_ = page["agent"], page["Effort"], page["np"]
+    row = agent.plan.expected_free_energy.row(agent.plan.chosen)
+    assert list(row)[-2:] == ["effort", "G"]
+    moves = sum(action != agent.map.motions.stay for action in agent.plan.policy.tolist())
+    weights = agent.settings.discount ** np_.arange(len(agent.plan.policy))
+    moving = agent.plan.policy != agent.map.motions.stay
+    assert row["effort"] == pytest.approx(0.125 * float(weights @ moving))
+    assert moves == moving.sum()
+    np.testing.assert_allclose(page["fast"]["effort"], page["slow"]["effort"], atol=1e-12)
+    np.testing.assert_allclose(page["fast"].G, page["slow"].G, atol=1e-9)
+    lazy = Agent(load_world("3x3").motions, planner=page["Planner"](terms=(*page["TERMS"], effort(cost=1e3))), seed=0)
+    assert lazy.step(load_world("3x3").reset(seed=0)[0]) == lazy.map.motions.stay
+
+
+def test_a_policy_generator_outside_of_the_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = written("add_a_policy_generator", tmp_path, monkeypatch)
+    straight, planner = page["Straight"], page["Planner"]
+    assert len(page["agent"].plan.policies) == straight().count(page["agent"].map.motions, 4) == 17
+    assert page["agent"].map.visited.all()
+    world = load_world("3x3")
+    strides = Agent(world.motions, planner=planner(policies=straight(stride=2)), seed=0)
+    strides.step(world.reset(seed=0)[0])
+    assert len(strides.plan.policies) == 13
+    many = type("Many", (straight,), {"name": "many", "count": lambda *_: 3_000_000})
+    with pytest.raises(CogmapError, match="many: more than 2,000,000 policies"):
+        Agent(world.motions, planner=planner(policies=many()), seed=0)

@@ -24,7 +24,14 @@ def sight_colour(label: Hashable) -> RGB:
 
 
 # Okabe and Ito (2008) without black, which is left to the walls
-ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = map(sight_colour, range(8))
+ORANGE = sight_colour(0)
+SKY = sight_colour(1)
+GREEN = sight_colour(2)
+YELLOW = sight_colour(3)
+BLUE = sight_colour(4)
+VERMILION = sight_colour(5)
+PURPLE = sight_colour(6)
+GREY = sight_colour(7)
 
 
 def hexed(colour: RGB) -> str:
