@@ -66,9 +66,9 @@ class LocalCache:
     def refresh(self) -> None:
         """Forget what has changed since the last call."""
         map_, read = self._map, self._read
-        ways, _ = map_.changed_places(read, map_.B_s, map_.A_p, map_.visits)
+        ways, _ = map_.changed_places(read, map_.B_s, map_.visits)
         tables = [sensor.table for sensor in map_.sights_sensed]
-        sights, self._read = map_.changed_places(read, *(tables or [map_.A_o]))
+        sights, self._read = map_.changed_places(read, map_.A_p, *tables)
         self._ways.forget(ways)
         if ways is None:
             self._beside.clear()
@@ -113,12 +113,12 @@ class LocalCache:
         p = alpha / alpha.sum(axis=2, keepdims=True)
         likely, blocked = likeliest(keys, p, places, ELSEWHERE)
         of_ways = map_.transitions.information(places, self.visits)
-        of_positions = map_.pose.information(places, self.visits)
+        return keys, p, likely, blocked, of_ways
+
+    def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
+        map_, steps = self._map, self.visits
+        told = (sensor.information(places, steps) for sensor in map_.sights_sensed)
         unknown = (np.nan,) * len(map_.motions.displacements[0])
         positions = [unknown if (at := map_.position(place)) is None else at for place in places.tolist()]
         position = np.array(positions, dtype=np.float64).reshape(len(places), -1)
-        return keys, p, likely, blocked, of_ways, of_positions, position
-
-    def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
-        told = (sensor.information(places, self.visits) for sensor in self._map.sights_sensed)
-        return (sum(told, np.zeros((len(places), self.visits + 1))),)
+        return map_.pose.information(places, steps), position, sum(told, np.zeros((len(places), steps + 1)))
