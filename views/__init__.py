@@ -5,8 +5,6 @@ Pictures of a map take `chart`, the true map (`world.chart`, or a maze) to be dr
 place of the chart, or row and column, that the agent takes as its origin.
 """
 
-from __future__ import annotations
-
 from .belief_plot import plot_belief, plot_belief_bars, plot_belief_map
 from .explain import explain
 from .explanation import Explanation
@@ -27,7 +25,6 @@ from .theme import (
     PURPLE,
     SKY,
     VERMILION,
-    YELLOW,
     Theme,
     contrast,
     hexed,
@@ -46,7 +43,6 @@ __all__ = [
     "PURPLE",
     "SKY",
     "VERMILION",
-    "YELLOW",
     "Explanation",
     "GrowthFrames",
     "MapPicture",

@@ -27,7 +27,6 @@ def sight_colour(label: Hashable) -> RGB:
 ORANGE = sight_colour(0)
 SKY = sight_colour(1)
 GREEN = sight_colour(2)
-YELLOW = sight_colour(3)
 BLUE = sight_colour(4)
 VERMILION = sight_colour(5)
 PURPLE = sight_colour(6)
