@@ -77,6 +77,8 @@ def fit(
         CogmapError: nothing to learn, an unknown variable, label or method, rows of different length, or a row that is
             impossible.
     """
+    if data is None:  # pyright: ignore[reportUnnecessaryComparison]
+        raise CogmapError("fit: the data are None; give labels by variable, or a sequence of rows")
     if method not in METHODS or iterations < 1:
         raise CogmapError(f"fit: method {method!r}, iterations {iterations}; choose one of {METHODS}, and 1 or more")
     rows = _Rows.of(graph, data)

@@ -7,7 +7,7 @@ from math import exp, log
 
 import numpy as np
 import pytest
-from cogmap.inference.hypotheses import NOWHERE, Sensed, Tracker, WayScheme
+from cogmap.inference.hypotheses import NOWHERE, Sensed, Tracker, TrackerOptions, WayScheme
 from cogmap.inference.hypotheses.branches import branches, leads
 from cogmap.inference.hypotheses.chances import Chances
 from cogmap.inference.hypotheses.evidence import probability, way_odds
@@ -16,6 +16,7 @@ from cogmap.inference.hypotheses.periods import reduced, with_period
 from cogmap.inference.hypotheses.pruning import signature
 from cogmap.inference.hypotheses.rates import RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
 from cogmap.inference.hypotheses.weighing import door_evidence
+from cogmap.model import CogmapError
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
@@ -202,3 +203,37 @@ def test_weights_add_up_to_one_at_every_step():
     for action in "RRDLDRULLURD":
         walk(tracker, world, action)
         assert sum(exp(h.weight) for h in tracker.hypotheses) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("sensed", "message"),
+    [
+        (Sensed((0,), (1.0,)), "1 sights and 1 ways; give 1 and 4"),
+        (Sensed((), (1.0,) * 4), "0 sights and 4 ways"),
+        (Sensed((0,), (float("nan"), 1.0, 1.0, 1.0)), r"P\(open\) is nan"),
+        (Sensed((0,), (1.5, 1.0, 1.0, 1.0)), r"P\(open\) is 1.5"),
+        (Sensed((0,), (1.0,) * 4, action=4), "action is 4; give 0 to 3"),
+        (Sensed(({0: -1.0},), (1.0,) * 4), "are no likelihoods"),
+        (Sensed(({0: 0.0},), (1.0,) * 4), "are no likelihoods"),
+    ],
+)
+def test_what_cannot_have_been_sensed_is_refused(sensed, message):
+    tracker = Tracker(LATTICE)
+    with pytest.raises(CogmapError, match=message):
+        tracker.step(sensed, [1])
+    assert not tracker.hypotheses
+
+
+def test_trackers_that_cannot_work_are_refused():
+    with pytest.raises(CogmapError, match="it has sensed nothing yet"):
+        _ = Tracker(LATTICE).best
+    with pytest.raises(CogmapError, match="give how many each of 1 sensors has"):
+        Tracker(LATTICE).step(Sensed((0,), (1.0,) * 4), [])
+    with pytest.raises(CogmapError, match="most >= 1"):
+        TrackerOptions(most=0)
+    with pytest.raises(CogmapError, match="name each of the 4 ways once"):
+        WayScheme(4, (1, 0))
+    with pytest.raises(CogmapError, match="one vector for each"):
+        WayScheme(4, (1, 0, 3, 2), ((1, 0),))
+    with pytest.raises(CogmapError, match="0 ways"):
+        WayScheme(0)

@@ -231,3 +231,10 @@ def test_checking_that_a_conditional_is_normalised():
     assert not factor.normalised
     factor.check_normalised(tolerance=0.2)
     assert graph.with_tables().factors[0].table is None
+
+
+def test_no_data_at_all_is_refused() -> None:
+    graph = FactorGraph()
+    graph.variable("x", ("a", "b"))
+    with pytest.raises(CogmapError, match="the data are None; give labels by variable"):
+        fit(graph, None)  # type: ignore[arg-type]

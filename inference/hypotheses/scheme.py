@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isfinite
 
+from ...model import CogmapError
 from .records import Position
 
 Reading = int | Mapping[int, float] | None
@@ -20,12 +22,25 @@ class WayScheme:
         inverse: the action that undoes each; None where that is not known.
         displacements: of each way, in Z^n; None without poses. They need `inverse`.
         sensors: how many sensors of sights there are.
+
+    Raises:
+        CogmapError: the parts do not fit `count` ways.
     """
 
     count: int
     inverse: tuple[int, ...] | None = None
     displacements: tuple[Position, ...] | None = None
     sensors: int = 1
+
+    def __post_init__(self) -> None:
+        if self.count < 1 or self.sensors < 0:
+            raise CogmapError(
+                f"ways: {self.count} ways and {self.sensors} sensors; give 1 way or more, 0 sensors or more"
+            )
+        if self.inverse is not None and sorted(self.inverse) != list(range(self.count)):
+            raise CogmapError(f"ways: inverse is {self.inverse}; name each of the {self.count} ways once")
+        if self.displacements is not None and (self.inverse is None or len(self.displacements) != self.count):
+            raise CogmapError(f"ways: displacements need an inverse, and one vector for each of the {self.count} ways")
 
     @property
     def origin(self) -> Position:
@@ -50,3 +65,26 @@ class Sensed:
     action: int | None = None
     certain: bool = False
     told: bool = False
+
+    def check(self, scheme: WayScheme) -> None:
+        """Refuse what such ways and sensors cannot bring.
+
+        Raises:
+            CogmapError: too many or too few readings, no probability, no likelihood, or no such action.
+        """
+        if len(self.sights) != scheme.sensors or len(self.ways) != scheme.count:
+            given = f"{len(self.sights)} sights and {len(self.ways)} ways"
+            raise CogmapError(f"sensed: {given}; give {scheme.sensors} and {scheme.count}, None for what was not seen")
+        if self.action is not None and not 0 <= self.action < scheme.count:
+            raise CogmapError(f"sensed: action is {self.action}; give 0 to {scheme.count - 1}, or None for staying")
+        for way in self.ways:
+            if way is not None and not 0.0 <= way <= 1.0:
+                raise CogmapError(f"sensed: P(open) is {way}; give a number from 0 to 1, or None")
+        for sight in self.sights:
+            values = list(sight.values()) if isinstance(sight, Mapping) else []
+            if isinstance(sight, Mapping) and not (values and max(values) > 0.0 and all(map(_likelihood, values))):
+                raise CogmapError(f"sensed: {sight} are no likelihoods; give finite numbers, one of them above 0")
+
+
+def _likelihood(value: float) -> bool:
+    return isfinite(value) and value >= 0.0

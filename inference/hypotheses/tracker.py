@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from heapq import nlargest
 from math import exp, log
 
+from ...model import CogmapError
 from .branches import Alternative, branches
 from .chances import Chances
 from .extending import begin, extend
@@ -33,11 +34,18 @@ class TrackerOptions:
         most: at most so many.
         least: those less probable than this, beside the most probable one, are dropped.
         folded: hypotheses in which look-alikes are tried to be united, besides those that found a new place.
+
+    Raises:
+        CogmapError: a number is out of range.
     """
 
     most: int = 32
     least: float = 1e-5
     folded: int = 2
+
+    def __post_init__(self) -> None:
+        if not (self.most >= 1 and 0.0 < self.least < 1.0 and self.folded >= 0):
+            raise CogmapError(f"tracker: {self} cannot work; give most >= 1, 0 < least < 1, folded >= 0")
 
 
 class Tracker:
@@ -54,7 +62,13 @@ class Tracker:
 
     @property
     def best(self) -> Hypothesis:
-        """The most probable hypothesis."""
+        """The most probable hypothesis.
+
+        Raises:
+            CogmapError: nothing was sensed yet.
+        """
+        if not self.hypotheses:
+            raise CogmapError("tracker: it has sensed nothing yet; call step(sensed, labels) first")
         return self.hypotheses[0]
 
     def step(self, sensed: Sensed, labels: Sequence[int]) -> None:
@@ -63,7 +77,13 @@ class Tracker:
         Args:
             sensed: what it brings.
             labels: number of labels that each sensor has shown so far, this step included.
+
+        Raises:
+            CogmapError: what was sensed does not fit the scheme, or there is not one number of labels a sensor.
         """
+        sensed.check(self.scheme)
+        if len(labels) != self.scheme.sensors:
+            raise CogmapError(f"tracker: labels are {labels}; give how many each of {self.scheme.sensors} sensors has")
         self.history.add(sensed)
         if not self.hypotheses:
             first = Hypothesis(self.scheme)
