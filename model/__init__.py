@@ -30,7 +30,7 @@ from .factors import (
     Transition,
     Ways,
 )
-from .files import make_folder, write_through, write_whole
+from .files import check_folder, check_writable, make_folder, unused, write_through, write_whole
 from .generative import GenerativeModel
 from .graph import (
     AllEvidence,
@@ -150,6 +150,8 @@ __all__ = [
     "Ways",
     "Whereabouts",
     "before",
+    "check_folder",
+    "check_writable",
     "counts_of",
     "decode",
     "dirichlet_information",
@@ -184,6 +186,7 @@ __all__ = [
     "table",
     "take_slice",
     "transitions",
+    "unused",
     "updates",
     "window_graph",
     "write_bif",
