@@ -79,6 +79,7 @@ from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .percept import Percept
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
+from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file
 from .slices import Slice, take_slice, window_graph
 from .updates import ParameterUpdate, updates
 
@@ -151,7 +152,10 @@ __all__ = [
     "Whereabouts",
     "before",
     "check_folder",
+    "check_size",
+    "check_values",
     "check_writable",
+    "count_values",
     "counts_of",
     "decode",
     "dirichlet_information",
@@ -171,10 +175,13 @@ __all__ = [
     "map_graph",
     "map_state",
     "map_table",
+    "open_regular",
+    "parse_json",
     "place_beyond",
     "plain",
     "quoted",
     "read_bif",
+    "read_file",
     "read_uai",
     "read_uai_evidence",
     "read_xmlbif",
