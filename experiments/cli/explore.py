@@ -79,7 +79,18 @@ def explore_command(
     """
     from ...model import GROWTHS, CogmapError
     from ...views import explore_figure
-    from .. import Parts, chart_of, check_outputs, exploration, explore_many, unused, workers, write_json, write_picture
+    from .. import (
+        Parts,
+        chart_of,
+        check_outputs,
+        exploration,
+        explore_many,
+        file_named,
+        unused,
+        workers,
+        write_json,
+        write_picture,
+    )
     from .walk_text import show_walk
 
     place = world_of(world, noise=noise, sights=sights, format=format, seed=seed)
@@ -91,7 +102,7 @@ def explore_command(
     if steps is not None and max_steps is not None:
         raise CogmapError("--steps walks on whatever is complete, and --max-steps gives up; give one of them")
     walked: Any = {"max_steps": max_steps, "steps": steps}
-    picture = out if sweep or out is not None else unused(Path(f"{chart.name}.png"))
+    picture = out if sweep or out is not None else unused(file_named(chart.name, ".png"))
     check_outputs([json, save, trace, picture], inputs=[world], picture=picture)
     results: list[dict[str, Any]] = []
     if sweep:
@@ -114,7 +125,7 @@ def explore_command(
         known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
         with progress("drawing", 1):
             title = f"{chart.name}, {agent}, seed {seed}"
-            write_picture(picture, explore_figure(chart, done.path, title=title, **known))
+            picture = write_picture(picture, explore_figure(chart, done.path, title=title, **known), new=out is None)
     say_saved(runs=json, agent=save, trace=trace, picture=picture)
     if done is not None and not sweep and not done.finished and steps is None:
         say(f"Not complete after {len(done.path) - 1} steps; allow more with --max-steps.", style="bold red")
