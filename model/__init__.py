@@ -77,9 +77,10 @@ from .map_state import map_state, restore_map
 from .map_tables import counts_of, map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
-from .percept import Percept
+from .percept import OUTCOMES, Outcome, Percept
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .slices import Slice, take_slice, window_graph
+from .unseen import UNSEEN, Unseen
 from .updates import ParameterUpdate, updates
 
 __all__ = [
@@ -90,12 +91,14 @@ __all__ = [
     "KINDS",
     "LEAST",
     "OPEN",
+    "OUTCOMES",
     "POSES",
     "SENSORS",
     "STEPS",
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
+    "UNSEEN",
     "AllEvidence",
     "Before",
     "Branch",
@@ -127,6 +130,7 @@ __all__ = [
     "Motions",
     "NoPose",
     "ObservedGrowth",
+    "Outcome",
     "ParameterUpdate",
     "Percept",
     "Pose",
@@ -146,6 +150,7 @@ __all__ = [
     "Table",
     "Template",
     "Transition",
+    "Unseen",
     "Variable",
     "Ways",
     "Whereabouts",

@@ -11,7 +11,7 @@ from ..errors import CogmapError
 from .base import Context, Floats, Ints, ModelFactor, Support, Table
 from .transition import Transition
 
-_TAKEN = frozenset({"s", "p", "o", "c", "Q", "M", "moved", "places", "visits", "transition", "pose", "displacement"})
+_TAKEN = frozenset("s p o c Q M moved taken outcome turn cost places visits transition pose displacement".split())
 
 
 class Sensor(ModelFactor):
