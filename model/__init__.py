@@ -30,7 +30,7 @@ from .factors import (
     Transition,
     Ways,
 )
-from .files import make_folder, write_through, write_whole
+from .files import check_folder, check_writable, make_folder, unused, write_through, write_whole
 from .generative import GenerativeModel
 from .graph import (
     AllEvidence,
@@ -78,6 +78,7 @@ from .map_tables import counts_of, map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .percept import Percept
+from .periods import Periods, reduced, with_period
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .slices import Slice, take_slice, window_graph
 from .updates import ParameterUpdate, updates
@@ -129,6 +130,7 @@ __all__ = [
     "ObservedGrowth",
     "ParameterUpdate",
     "Percept",
+    "Periods",
     "Pose",
     "Position",
     "PredictedGrowth",
@@ -150,6 +152,8 @@ __all__ = [
     "Ways",
     "Whereabouts",
     "before",
+    "check_folder",
+    "check_writable",
     "counts_of",
     "decode",
     "dirichlet_information",
@@ -176,6 +180,7 @@ __all__ = [
     "read_uai",
     "read_uai_evidence",
     "read_xmlbif",
+    "reduced",
     "restore_map",
     "safe",
     "save_graph",
@@ -184,8 +189,10 @@ __all__ = [
     "table",
     "take_slice",
     "transitions",
+    "unused",
     "updates",
     "window_graph",
+    "with_period",
     "write_bif",
     "write_graphml",
     "write_through",
