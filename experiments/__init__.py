@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .knowledge import BELIEVED, Truth
     from .ledger import Ledger
     from .navigating import NavigateRun, navigate, navigate_many, navigate_result
-    from .output import check_outputs, picture_of, unused, write_json, write_picture
+    from .output import check_outputs, file_named, picture_of, unused, write_json, write_picture
     from .parts import AGENTS, CSCG, Maker, Parts
     from .pool import WorkerLostError, completed, map_seeds, map_tasks, workers
     from .records import Record, mean, std
@@ -51,6 +51,7 @@ __all__ = [
     "explore",
     "explore_many",
     "explored",
+    "file_named",
     "frontier_steps",
     "kidnap",
     "kidnap_many",

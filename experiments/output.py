@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
+import re
 import warnings
 from collections.abc import Iterable
 from io import BytesIO
-from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..model import CogmapError, write_whole
+from ..model import CogmapError, check_folder, check_writable, write_whole
+from ..model import unused as unused
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
 PICTURES = (".png", ".pdf", ".svg")
+_NO_NAME = re.compile(r"[^\w.+-]|^\.+")
 
 
 def check_outputs(
@@ -30,14 +31,14 @@ def check_outputs(
         inputs: what is read, none of which may be written.
         picture: which of them is a picture, with a suffix of `PICTURES`.
     """
-    read, seen = {os.path.realpath(path) for path in inputs}, set[Path]()
+    read, seen = [Path(path) for path in inputs], set[Path]()
     for path in paths:
         if path is None:
             continue
         target = Path(os.path.realpath(path))
         if target in seen:
             raise CogmapError(f"{path} is given for two outputs; give each a file of its own")
-        if str(target) in read and target.exists():
+        if any(_is_same(path, other) for other in read):
             raise CogmapError(f"{path} is the file that is read; write to another")
         seen.add(target)
         _check(path, target)
@@ -45,10 +46,9 @@ def check_outputs(
         raise CogmapError(f"{picture} has no picture suffix; use one of {', '.join(PICTURES)}")
 
 
-def unused(path: Path) -> Path:
-    """A file that was not named, or where it is there already the first of NAME-2, NAME-3, … that is not."""
-    names = (path.with_stem(f"{path.stem}-{number}") for number in count(2))
-    return path if not path.exists() else next(name for name in names if not name.exists())
+def file_named(name: str, suffix: str) -> Path:
+    """A file in this folder for something with that name, whatever signs are in it."""
+    return Path((_NO_NAME.sub("_", name)[:80] or "_") + suffix)
 
 
 def write_json(path: Path, value: Any) -> None:
@@ -56,9 +56,9 @@ def write_json(path: Path, value: Any) -> None:
     write_whole(path, (json.dumps(value, indent=2, allow_nan=False) + "\n").encode())
 
 
-def write_picture(path: Path, figure: Figure) -> None:
-    """Write the figure in the format of the suffix."""
-    write_whole(path, picture_of(figure, path.suffix.lower().removeprefix(".")))
+def write_picture(path: Path, figure: Figure, *, new: bool = False) -> Path:
+    """Write the figure in the format of the suffix; answers with its path (`new`: see `write_through`)."""
+    return write_whole(path, picture_of(figure, path.suffix.lower().removeprefix(".")), new=new)
 
 
 def picture_of(figure: Figure | SubFigure, kind: str) -> bytes:
@@ -70,13 +70,20 @@ def picture_of(figure: Figure | SubFigure, kind: str) -> bytes:
     return buffer.getvalue()
 
 
+def _is_same(one: Path, other: Path) -> bool:
+    """Whether they are one file, by links of either kind too."""
+    try:
+        return os.path.samefile(one, other)
+    except (OSError, ValueError):  # one is not there
+        return False
+
+
 def _check(path: Path, target: Path) -> None:
     try:
-        if target.exists() and not target.is_file():
-            raise CogmapError(f"cannot write {path}: it is a folder or a device; give a file")
-        if target.exists() and not os.access(target, os.W_OK):
-            raise CogmapError(f"cannot write {path}: it is read-only; choose another file")
-        tempfile.NamedTemporaryFile(dir=target.parent, prefix=f".{target.name[:80]}.").close()
-    except OSError as error:
-        where = f"cannot write {path}: folder {target.parent}: {error.strerror or error}"
-        raise CogmapError(f"{where}; choose another file") from error
+        check_writable(path)
+        check_folder(path)
+    except (OSError, ValueError) as error:
+        if isinstance(error, CogmapError):
+            raise
+        why = getattr(error, "strerror", None) or error
+        raise CogmapError(f"cannot write {path}: folder {target.parent}: {why}; choose another file") from error

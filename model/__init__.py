@@ -30,7 +30,7 @@ from .factors import (
     Transition,
     Ways,
 )
-from .files import make_folder, write_through, write_whole
+from .files import check_folder, check_writable, make_folder, unused, write_through, write_whole
 from .generative import GenerativeModel
 from .graph import (
     AllEvidence,
@@ -78,6 +78,7 @@ from .map_tables import counts_of, map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .percept import OUTCOMES, Outcome, Percept
+from .periods import Periods, reduced, with_period
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .slices import Slice, take_slice, window_graph
 from .unseen import UNSEEN, Unseen
@@ -133,6 +134,7 @@ __all__ = [
     "Outcome",
     "ParameterUpdate",
     "Percept",
+    "Periods",
     "Pose",
     "Position",
     "PredictedGrowth",
@@ -155,6 +157,8 @@ __all__ = [
     "Ways",
     "Whereabouts",
     "before",
+    "check_folder",
+    "check_writable",
     "counts_of",
     "decode",
     "dirichlet_information",
@@ -181,6 +185,7 @@ __all__ = [
     "read_uai",
     "read_uai_evidence",
     "read_xmlbif",
+    "reduced",
     "restore_map",
     "safe",
     "save_graph",
@@ -189,8 +194,10 @@ __all__ = [
     "table",
     "take_slice",
     "transitions",
+    "unused",
     "updates",
     "window_graph",
+    "with_period",
     "write_bif",
     "write_graphml",
     "write_through",

@@ -59,7 +59,17 @@ def explore_command(
     from ...model import GROWTHS
     from ...views import explore_figure
     from ...worlds import load_world
-    from .. import Parts, check_outputs, exploration, explore_many, unused, workers, write_json, write_picture
+    from .. import (
+        Parts,
+        check_outputs,
+        exploration,
+        explore_many,
+        file_named,
+        unused,
+        workers,
+        write_json,
+        write_picture,
+    )
     from .walk_text import show_walk
 
     place = load_world(world)
@@ -68,7 +78,7 @@ def explore_command(
     every = [Parts.named(agent, growth=name, **options) for name in names]
     sweep, chart = runs is not None or len(every) > 1, place.chart
     _check(agent, len(every), save, trace, out, dask=dask is not None and not sweep)
-    picture = out if sweep or out is not None else unused(Path(f"{chart.name}.png"))
+    picture = out if sweep or out is not None else unused(file_named(chart.name, ".png"))
     check_outputs([json, save, trace, picture], inputs=[world], picture=picture)
     results: list[dict[str, Any]] = []
     if sweep:
@@ -91,7 +101,7 @@ def explore_command(
         known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
         with progress("drawing", 1):
             title = f"{chart.name}, {agent}, seed {seed}"
-            write_picture(picture, explore_figure(chart, done.path, title=title, **known))
+            picture = write_picture(picture, explore_figure(chart, done.path, title=title, **known), new=out is None)
     say_saved(runs=json, agent=save, trace=trace, picture=picture)
     if done is not None and not sweep and not done.finished:
         say(f"Not complete after {len(done.path) - 1} steps; allow more with --max-steps.", style="bold red")

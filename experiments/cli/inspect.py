@@ -78,7 +78,7 @@ def inspect_command(
         say(growth_between(agent.map, since or 0))
         text.show_rows("growth", text.GROWTH, facts["growth"]["events"], limit)
     if graph is not None and target is not None:
-        write_whole(target, _drawn(agent, graph, window=of == "window"))
+        target = write_whole(target, _drawn(agent, graph, window=of == "window"), new=out is None)
     if json is not None:
         write_json(json, facts)
     say_saved(graph=target, facts=json)

@@ -25,6 +25,6 @@ def replay_command(run: RunFile, out: Out = None) -> None:
     check_outputs([page], inputs=[run])
     recording = Recording.load(run)
     content = replay_html(recording).encode()
-    write_whole(page, content)
+    page = write_whole(page, content, new=out is None)
     say(f"{count(len(recording), 'step')}, {len(content) / 1e6:.1f} MB")
     say_saved(page=page)

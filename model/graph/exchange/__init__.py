@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from ...errors import CogmapError
+from ...files import write_whole
 from ..factor_graph import FactorGraph
 from .bif import read_bif, write_bif
 from .graphml import write_graphml
@@ -74,9 +75,9 @@ def save_graph(graph: FactorGraph, path: str | PathLike[str]) -> None:
     """
     text = _by_suffix(_WRITE, Path(path))(graph)
     try:
-        Path(path).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise CogmapError(f"{path}: cannot be written ({error.strerror}); choose another file") from error
+        write_whole(Path(path), text.encode())
+    except UnicodeEncodeError as error:
+        raise CogmapError(f"{path}: a name or label is no text ({error.reason}); rename it") from error
 
 
 def _by_suffix(known: dict[str, T], path: Path) -> T:
