@@ -226,7 +226,7 @@ class Agent:
         self._infer(percept)
         self._remember(percept)
         self._learn(percept)
-        state.open, state.acted, state.choice, self._plan = percept.open, False, None, None
+        state.open, state.acted, state.choice, self._plan = percept.passable, False, None, None
         state.steps += 1
         return self.belief
 

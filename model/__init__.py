@@ -77,10 +77,12 @@ from .map_state import map_state, restore_map
 from .map_tables import counts_of, map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
-from .percept import Percept
+from .percept import OUTCOMES, Outcome, Percept
+from .periods import Periods, reduced, with_period
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file
 from .slices import Slice, take_slice, window_graph
+from .unseen import UNSEEN, Unseen
 from .updates import ParameterUpdate, updates
 
 __all__ = [
@@ -91,12 +93,14 @@ __all__ = [
     "KINDS",
     "LEAST",
     "OPEN",
+    "OUTCOMES",
     "POSES",
     "SENSORS",
     "STEPS",
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
+    "UNSEEN",
     "AllEvidence",
     "Before",
     "Branch",
@@ -128,8 +132,10 @@ __all__ = [
     "Motions",
     "NoPose",
     "ObservedGrowth",
+    "Outcome",
     "ParameterUpdate",
     "Percept",
+    "Periods",
     "Pose",
     "Position",
     "PredictedGrowth",
@@ -147,6 +153,7 @@ __all__ = [
     "Table",
     "Template",
     "Transition",
+    "Unseen",
     "Variable",
     "Ways",
     "Whereabouts",
@@ -185,6 +192,7 @@ __all__ = [
     "read_uai",
     "read_uai_evidence",
     "read_xmlbif",
+    "reduced",
     "restore_map",
     "safe",
     "save_graph",
@@ -196,6 +204,7 @@ __all__ = [
     "unused",
     "updates",
     "window_graph",
+    "with_period",
     "write_bif",
     "write_graphml",
     "write_through",

@@ -12,11 +12,10 @@ from cogmap.inference.hypotheses.branches import branches, leads
 from cogmap.inference.hypotheses.chances import Chances
 from cogmap.inference.hypotheses.evidence import probability, way_odds
 from cogmap.inference.hypotheses.layered import Layered
-from cogmap.inference.hypotheses.periods import reduced, with_period
 from cogmap.inference.hypotheses.pruning import signature
 from cogmap.inference.hypotheses.rates import RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
 from cogmap.inference.hypotheses.weighing import door_evidence
-from cogmap.model import CogmapError
+from cogmap.model import CogmapError, reduced, with_period
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad

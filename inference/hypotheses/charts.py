@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ...model import Periods, reduced, with_period
 from .hypothesis import Hypothesis, Key
-from .periods import Periods, reduced, with_period
 from .records import NOWHERE, Place, Position
 
 Pair = tuple[int, int]

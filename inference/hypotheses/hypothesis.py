@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ...model import Periods, reduced
 from .chances import Chances
 from .layered import Layered
-from .periods import Periods, reduced
 from .rates import BESIDE, OPEN, SIGHT_MISREAD, WAY_MISREAD, RateCounts
 from .records import NOWHERE, Place, Position
 from .scheme import WayScheme

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .records import Position
+from .motions import Position
 
 Periods = tuple[Position, ...]
 """Rows in Hermite form: the first entry that is not zero of each is positive and further right than that before."""
