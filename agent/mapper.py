@@ -75,7 +75,8 @@ class Mapper:
         would fix the sight of a place where the agent never was.
         """
         self._map.mark_visited(belief.place)
-        open_ = readings.get("open", (True,) * len(self._map.motions))  # where nothing senses ways, all may be open
+        passable = Percept(readings=readings).passable
+        open_ = (True,) * len(self._map.motions) if passable is None else passable  # what nothing senses may be open
         self._map.recall(self._growth.look(self._map, belief, open_, step=step))
         self._map.learn(belief.place, readings, weight)
 

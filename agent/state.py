@@ -78,7 +78,7 @@ class State:
         steps: observations taken in so far.
         acted: whether it has answered the last of them.
         action: what it answered; None before the first.
-        open: for each action whether its way was sensed open at the last step; None where nothing senses that.
+        open: for each action whether its way may be open by what the last step sensed; None where nothing was sensed.
         pending: steps that wait to be learned from.
         belief: after the last observation.
         preferences: what it prefers now.

@@ -77,10 +77,12 @@ from .map_state import map_state, restore_map
 from .map_tables import counts_of, map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
-from .percept import Percept
+from .percept import OUTCOMES, Outcome, Percept
 from .periods import Periods, reduced, with_period
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
+from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file
 from .slices import Slice, take_slice, window_graph
+from .unseen import UNSEEN, Unseen
 from .updates import ParameterUpdate, updates
 
 __all__ = [
@@ -91,12 +93,14 @@ __all__ = [
     "KINDS",
     "LEAST",
     "OPEN",
+    "OUTCOMES",
     "POSES",
     "SENSORS",
     "STEPS",
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
+    "UNSEEN",
     "AllEvidence",
     "Before",
     "Branch",
@@ -128,6 +132,7 @@ __all__ = [
     "Motions",
     "NoPose",
     "ObservedGrowth",
+    "Outcome",
     "ParameterUpdate",
     "Percept",
     "Periods",
@@ -148,12 +153,16 @@ __all__ = [
     "Table",
     "Template",
     "Transition",
+    "Unseen",
     "Variable",
     "Ways",
     "Whereabouts",
     "before",
     "check_folder",
+    "check_size",
+    "check_values",
     "check_writable",
+    "count_values",
     "counts_of",
     "decode",
     "dirichlet_information",
@@ -173,10 +182,13 @@ __all__ = [
     "map_graph",
     "map_state",
     "map_table",
+    "open_regular",
+    "parse_json",
     "place_beyond",
     "plain",
     "quoted",
     "read_bif",
+    "read_file",
     "read_uai",
     "read_uai_evidence",
     "read_xmlbif",

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..changes import Store
 from ..column import Column
 from ..dirichlet import EMPTY, SparseDirichlet
+from ..errors import CogmapError
 from ..information import information
 from ..percept import Percept
 from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table, parts_of
@@ -64,7 +65,11 @@ class Transition(ModelFactor):
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over the arrays."""
         self.grow(places)
-        self.table.restore(parts_of(self.table, arrays), outcomes=places)
+        self.table.restore(parts_of(self.table, arrays), outcomes=places, least=ELSEWHERE)
+        keys, alpha, _ = self.table.concentration(np.arange(places * len(self.motions)))
+        stays = (keys == np.arange(places).repeat(len(self.motions))[:, None]) & (alpha > 0.0)
+        if not stays.any(axis=1).all():
+            raise CogmapError("map: an action leads nowhere, not even back; save it again")
         self.sensed.restore(parts_of(self.sensed, arrays), least=UNKNOWN, bound=BLOCKED + 1)
         self.walked.restore(parts_of(self.walked, arrays))
 
@@ -98,7 +103,7 @@ class Transition(ModelFactor):
 
         Who did not get through a door, and now senses it shut, has one thing to explain, not three: that the place is
         the same, that the pose is, and that the door is shut. The less probable of the first two stays, the others are
-        taken out again.
+        taken out again. What the body says of the outcome is wrong as rarely as a door is believed otherwise.
 
         Args:
             places: `[n]` s.
@@ -108,9 +113,12 @@ class Transition(ModelFactor):
         """
         keys, p, _ = self.table.mean(places * len(self.motions) + action)
         coupling = np.ones(keys.shape)
-        if percept.open is not None and not percept.open[action]:
+        if percept.shut(action):
             others = self.blocked(places)[:, action, None] * np.maximum(p, stays)
             np.divide(1.0, others, out=coupling, where=(keys == places[:, None]) & (others > 0.0))
+        if percept.outcome in ("arrived", "blocked") and action != self.motions.stay:
+            believed = (keys == places[:, None]) == (percept.outcome == "blocked")
+            coupling[~believed] *= self.context.priors.door_floor
         return Successors(keys, p, coupling)
 
     def information(self, places: Ints, steps: int) -> Floats:
@@ -173,6 +181,10 @@ class Transition(ModelFactor):
         """Have counts of `level` at least."""
         have = self.table.evidence(self.row(previous, action), next_)
         self.add(next_, previous, action, max(level - have, 0.0))
+
+    def level(self, next_: int, previous: int, action: int, level: float) -> None:
+        """Have counts of `level`, no more and no less."""
+        self.add(next_, previous, action, level - self.table.evidence(self.row(previous, action), next_))
 
     def add(self, next_: int, previous: int, action: int, amount: float) -> None:
         """Add counts, up to the ceiling."""
