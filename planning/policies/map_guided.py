@@ -112,8 +112,8 @@ class _Skeleton:
     """The map as lists, which are quicker than arrays one element at a time.
 
     `ways[i]` holds (action, place it leads to, risk in nats), `unknown[i]` actions that lead nobody knows
-    where, `bit[i]` is the place's bit (0: worth nothing), `value[i]` of a first visit, the `greatest` of them, the `floor`
-    below which a first visit is worth nothing, and `utility[i]` are in nats.
+    where, `bit[i]` is the place's bit (0: worth nothing), `value[i]` of a first visit, the `greatest` of them, the
+    `floor` below which a first visit is worth nothing, and `utility[i]` are in nats.
     """
 
     ways: list[list[tuple[int, int, float]]]
@@ -235,8 +235,10 @@ def _telling(skeleton: _Skeleton, start: int, path: Path, look_ahead: int) -> li
 
 
 def _beyond(skeleton: _Skeleton, start: int, best: float) -> list[Path]:
-    """Shortest paths to places that are worth more than all that is nearer, and where nothing great is near (`best`), to
-    the nearest places of great value; if there are none, into the nearest unknown ways.
+    """Shortest paths to places that are worth more than all that is nearer.
+
+    Where nothing great is near (`best`), also to the nearest places of great value; if there are none, into the nearest
+    unknown ways.
     """
     shortest: dict[int, Path] = {start: ()}
     queue = [start]
