@@ -64,9 +64,12 @@ class Record:
 
 _KINDS: dict[Any, tuple[str, tuple[type, ...]]] = {
     str: ("a word", (str,)),
+    str | None: ("a word or null", (str, type(None))),
     int: ("a whole number", (int,)),
     int | None: ("a whole number or null", (int, type(None))),
     float: ("a number", (int, float)),
+    float | None: ("a number or null", (int, float, type(None))),
+    bool | None: ("true, false or null", (bool, type(None))),
     Place: ("a room", (int, str)),  # or a pair of whole numbers
 }
 

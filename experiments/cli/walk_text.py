@@ -16,8 +16,8 @@ from rich.text import Text
 from ...agent import Agent
 from ...views import hexed, ink_on, sight_colour
 from ...worlds import Chart, Maze, Place
-from ..exploring import Walk
-from ..knowledge import BELIEVED
+from ..exploring import ExploreRun, Walk
+from ..judging import BELIEVED
 from ..text import count, show_facts
 from .inspect_facts import ways_known
 
@@ -39,7 +39,7 @@ def show_walk(chart: Chart, walk: Walk, *, agent: str) -> None:
         "complete after": run.steps_to_complete,
         "shortest possible (oracle)": run.oracle_steps,
     }
-    if run.frontier_steps is not None:
+    if run.frontier_steps is not None or run.not_worked_out is not None:
         steps["nearest-frontier search"] = run.frontier_steps
     facts: dict[str, Any] = {name: "-" if value is None else count(value, "step") for name, value in steps.items()}
     facts["time"] = f"{run.seconds:.2f} s"
@@ -63,8 +63,9 @@ def _maze(maze: Maze, path: Sequence[Place], width: int) -> Text:
     """Every room in its colour, with its label and the step of the first visit."""
     first = {room: step for step, room in reversed(list(enumerate(path)))}
     rows, columns = maze.shape
-    words = [str(word) for word in (*maze.sights.values(), *first.values())]
-    cell = min(max(map(cell_len, words)) + 2, 10)
+    few = 3 * columns <= width  # a cell takes three signs or more
+    words = [str(word) for word in (*maze.sights.values(), *first.values())] if few else []
+    cell = min(max(map(cell_len, words), default=1) + 2, 10)
     if columns * cell > width:
         return Text(f"(too wide to draw here: {columns} columns; see the picture)", style="dim")
     text = Text(no_wrap=True)
@@ -89,7 +90,8 @@ def _cell(maze: Maze, room: Place, first: dict[Place, int], width: int, line: in
 
 def _path(chart: Chart, path: Sequence[Place], *, unicode: bool) -> Text:
     def sign(a: Place, b: Place) -> str:
-        move = "stay" if a == b else next(str(way) for way, place in chart.successors(a).items() if place == b)
+        ways = (str(way) for way, place in chart.successors(a).items() if place == b)
+        move = "stay" if a == b else next(ways, "!")  # put elsewhere
         return _ARROWS.get(move, f"{move} ") if unicode else move[0]
 
     signs = "".join(sign(a, b) for a, b in pairwise(path[: MOST_MOVES + 1]))
@@ -104,8 +106,19 @@ def _learned(walk: Walk, agent: Agent) -> dict[str, str]:
     return {
         "map": f"{places}, {count(len(map_.sights), 'sight')}",
         "transitions": ", ".join(known),
+        "beside the truth": _worth(walk.run),
         "least believed transition": f"{walk.truth.least(map_):.3f} (learned from {BELIEVED})",
     }
+
+
+def _worth(run: ExploreRun) -> str:
+    parts = (
+        count(run.places or 0, "place"),
+        f"map {'right' if run.map_right else 'not right'}",
+        f"{run.known or 0.0:.0%} of all transitions known",
+        f"certain but wrong in {run.certain_but_wrong or 0.0:.1%} of the steps",
+    )
+    return ", ".join(parts)
 
 
 def _energies(agent: Agent, to: Console) -> dict[str, Text]:
