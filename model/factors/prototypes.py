@@ -179,6 +179,10 @@ class Prototypes:
     def value(self, numbers: Sequence[float]) -> None:
         """Nothing."""
 
+    def fits(self, where: Any, value: Any, places: int) -> bool:
+        """Never: no change of it is logged."""
+        return False
+
     def touched(self, where: Any) -> Iterable[int]:
         """No place."""
         return ()
