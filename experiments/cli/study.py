@@ -18,7 +18,8 @@ Name = Annotated[
     str,
     typer.Argument(
         metavar="NAME",
-        help="exploration, rooms, growth, cost, localisation, goals, donut, tolman, martinet, insight or identity; or all.",
+        help="exploration, rooms, growth, cost, identity, localisation, "
+        "goals, donut, tolman, martinet, insight; or all.",
         show_default=False,
     ),
 ]
