@@ -18,6 +18,7 @@ from .factors import (
     UNKNOWN,
     Context,
     Displacement,
+    Features,
     Lattice,
     ModelFactor,
     NoPose,
@@ -80,7 +81,7 @@ from .motions import Motions, MotionSpec, Position
 from .percept import OUTCOMES, Outcome, Percept
 from .periods import Periods, reduced, with_period
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
-from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file
+from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file, unpack_gzip
 from .slices import Slice, take_slice, window_graph
 from .unseen import UNSEEN, Unseen
 from .updates import ParameterUpdate, updates
@@ -117,6 +118,7 @@ __all__ = [
     "Evidence",
     "Factor",
     "FactorGraph",
+    "Features",
     "FloatArray",
     "GenerativeModel",
     "GrownPlace",
@@ -201,6 +203,7 @@ __all__ = [
     "table",
     "take_slice",
     "transitions",
+    "unpack_gzip",
     "unused",
     "updates",
     "window_graph",

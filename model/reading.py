@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 import math
 import os
 import re
 import stat
 from collections.abc import Iterable
+from io import BytesIO
 from os import PathLike
 from typing import Any, BinaryIO, cast
 
@@ -15,6 +17,8 @@ from .errors import CogmapError
 
 LARGEST = 256 * 2**20
 """Bytes of the largest file that is read whole, packed or not."""
+
+CHUNK = 2**20
 
 MOST_VALUES = 6_000_000
 """Values of JSON in one file: each takes up to 80 bytes where it is read."""
@@ -51,6 +55,24 @@ def read_file(path: str | PathLike[str], *, most: int = LARGEST) -> bytes:
         content = file.read(most + 1)  # a file may grow
     check_size(path, len(content), most)
     return content
+
+
+def unpack_gzip(path: str | PathLike[str], content: bytes, *, most: int = LARGEST) -> bytes:
+    """What was packed, a JSON text; it is gone through once before any of it is kept.
+
+    Raises:
+        CogmapError: it would be larger than `most` bytes.
+        ValueError: it has more than `MOST_VALUES` values.
+        OSError, EOFError, zlib.error: it was not packed with gzip, or its end is missing.
+    """
+    size = values = 0
+    with gzip.GzipFile(fileobj=BytesIO(content)) as file:
+        while part := file.read(CHUNK):
+            size += len(part)
+            values += count_values(part)
+            check_size(path, size, most)
+            check_values(values)
+    return gzip.decompress(content)
 
 
 def check_size(path: str | PathLike[str], size: int, most: int) -> None:

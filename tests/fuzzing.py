@@ -25,7 +25,7 @@ from cogmap.agent import Agent
 from cogmap.experiments import Ledger
 from cogmap.model import CogmapError, load_graph, save_graph
 from cogmap.views import Recording, replay_html
-from cogmap.worlds import load_world
+from cogmap.worlds import WorldError, load_world
 from parts import agent_with
 from recordings import recorded
 from walks import assert_map_is_sound, walk, walked
@@ -296,7 +296,7 @@ def outcome(path: Path, attempt: Callable[[Path], None]) -> str:
     """`fine`, or `refused` in one line; anything else escapes."""
     try:
         attempt(path)
-    except CogmapError as error:
+    except (CogmapError, WorldError) as error:
         text = str(error)
         assert text.isprintable(), repr(text)
         assert len(text) < 1000

@@ -37,8 +37,8 @@ class Recording:
         try:
             data = upgraded(data)
             check(data)
-        except (AttributeError, LookupError, TypeError, ValueError) as error:
-            why = f"{type(error).__name__}: {error}"
+        except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
+            why = " ".join(f"{type(error).__name__}: {error}".split())[:300]
             raise CogmapError(f"recording: {path} is damaged ({why}); record it again") from error
         return cls(data)
 

@@ -9,8 +9,10 @@ import numpy as np
 
 from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
 from .cache import LocalCache, PlaceRows
+from .dormant import leave_out_dormant
 from .model import Floats, Ints, LocalModel
 from .preferences import Preferences
+from .structure import MapHypotheses, Structure
 from .transitions import Transitions, likeliest
 from .view import MapView
 
@@ -27,6 +29,7 @@ class Surroundings:
         preferences: what is hoped for.
         open: for each action, whether its way is sensed open now.
         look_ahead: steps that policies look ahead.
+        structure: hypotheses about the map, side by side; None where there is but one.
     """
 
     map: MapView
@@ -36,6 +39,7 @@ class Surroundings:
     preferences: Preferences
     open: Sequence[bool]
     look_ahead: int
+    structure: Structure | None = None
 
     def sensed(self) -> Ints:
         """`[n, K]` where each action most probably leads to from the starts, as sensed now; see `LocalCache.likely`."""
@@ -62,6 +66,7 @@ def local_model(
     starts: int = 32,
     cache: LocalCache | None = None,
     beyond: Callable[[Surroundings], Ints] = nothing_beyond,
+    structure: MapHypotheses | None = None,
 ) -> LocalModel:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
@@ -70,7 +75,8 @@ def local_model(
     worked out again.
 
     Raises:
-        CogmapError: the cache is of another map or tells of fewer visits than `look_ahead`, or `starts` is below one.
+        CogmapError: the cache is of another map or tells of fewer visits than `look_ahead`, `starts` is below one, or
+            the hypotheses have weights that are none.
     """
     cache = cache or LocalCache(map_, look_ahead)
     cache.check(map_, look_ahead)
@@ -80,7 +86,8 @@ def local_model(
     preferences = preferences or Preferences()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
     near = cache.within(places, look_ahead)
-    far = beyond(Surroundings(map_, cache, places, near, preferences, open_, look_ahead))
+    apart = Structure.of(structure)
+    far = beyond(Surroundings(map_, cache, places, near, preferences, open_, look_ahead, apart))
     within = np.union1d(near, far) if len(far) else near
     at, local = within.searchsorted(places), np.append(within, ELSEWHERE)
     q = np.zeros(len(local))
@@ -91,9 +98,11 @@ def local_model(
     rows.blocked[:, map_.motions.stay] = 0.0
     rows.position[-1] = np.nan
     rows.sights[-1] = cache.unseen()
-    B, successor = _transitions(within, rows, map_.motions.stay)
     entered = np.zeros(len(local), dtype=np.bool_)
     entered[:-1] = map_.visited[within]
+    if not entered[:-1].all():
+        leave_out_dormant(map_, within, rows, entered[:-1])
+    B, successor = _transitions(within, rows, map_.motions.stay)
     visits = slice(look_ahead + 1)
     return LocalModel(
         motions=map_.motions,
@@ -118,6 +127,7 @@ def local_model(
         discount=discount,
         information_weight=information_weight,
         dropped=dropped,
+        structure=apart,
     )
 
 
