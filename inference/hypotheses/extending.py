@@ -6,7 +6,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_probability, probability, sight_probability, way_odds
+from .evidence import label_probability, odds_beyond, probability, sight_probability
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -85,9 +85,12 @@ def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         _count_returns(h, place, index, to)
     net = max(way.net, h.chances.most)
     walked = Way(net, way.open, way.blocked, way.walks + 1, to)
-    h.put(here, with_way(h.places[here], index, walked))
-    _arrive(h, here, index, to)
-    h.put(here, shared(h, here, h.places[here]))
+    if to == here or (here, index) not in h.places[to].into:
+        h.put(here, with_way(h.places[here], index, walked))
+        _arrive(h, here, index, to)
+        h.put(here, shared(h, here, h.places[here]))
+    else:
+        h.put(here, shared(h, here, with_way(h.places[here], index, walked)))
 
 
 def _arrive(h: Hypothesis, here: int, index: int, to: int) -> None:
@@ -189,8 +192,9 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     opened, blocked, wrong, right, beside, shut = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     chances = h.chances
     for index, way in enumerate(place.ways):
-        odds = way_odds(h, number, place, index)
-        known = h.neighbour(place, index) != NOWHERE
+        other = h.neighbour(place, index)
+        known = other != NOWHERE
+        odds = odds_beyond(h, number, way.net, index, other)
         if way.net or odds != (chances.beside if known else chances.odds):
             p = probability(odds)
             half = 0.5 if h.scheme.inverse is not None and known else 1.0
@@ -203,7 +207,7 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     misread, read = 0.0, 0.0
     for sensor, counts in enumerate(place.sights):
         for label, count in counts.items():
-            p = label_probability(h.chances, sensor, counts, label)
+            p = label_probability(chances, sensor, counts, label)
             misread += count * (1.0 - p)
             read += count * p
     share = Share(opened, blocked, wrong, right, misread, read, beside, shut)

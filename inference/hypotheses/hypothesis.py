@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import add
 
 from ...model import Periods, reduced
 from .chances import Chances
 from .layered import Layered
 from .rates import BESIDE, OPEN, SIGHT_MISREAD, WAY_MISREAD, RateCounts
-from .records import NOWHERE, Place, Position
+from .records import NOWHERE, Place, Position, Share
 from .scheme import WayScheme
+
+SHARES = (
+    (OPEN, True), (OPEN, False), (WAY_MISREAD, True), (WAY_MISREAD, False), (SIGHT_MISREAD, True),
+    (SIGHT_MISREAD, False), (BESIDE, True), (BESIDE, False),
+)  # fmt: skip
+"""Which rate each part of a share counts for, and whether as true."""
 
 Key = tuple[int, Position]
 Label = tuple[int, int]
@@ -98,7 +105,9 @@ class Hypothesis:
         displacements = self.scheme.displacements
         if displacements is None:
             return None
-        return self.canonical(place.frame, [x + d for x, d in zip(place.position, displacements[way], strict=True)])
+        position = tuple(map(add, place.position, displacements[way]))
+        periods = self.periods.get(place.frame) if self.periods else None
+        return place.frame, reduced(position, periods) if periods else position
 
     def canonical(self, frame: int, position: Sequence[int]) -> Key:
         """The one key of a position, which may be many in a chart that closes on itself."""
@@ -125,15 +134,17 @@ class Hypothesis:
             self.size += 1
             if place.position:
                 self.at[place.frame, place.position] = number
+            self._count(place, 1.0)
+            self.digest += digest(place)
         else:
-            self._count(before, -1.0)
-            self.digest -= digest(before)
-        self._count(place, 1.0)
-        self.digest += digest(place)
-        for sensor in range(self.scheme.sensors):
-            was, now = -1 if before is None else before.label(sensor), place.label(sensor)
-            if was != now:
-                self._relabel(sensor, number, was, now)
+            self._recount(before.share, place.share)
+            if before.ways is not place.ways or before.sights is not place.sights:
+                self.digest += digest(place) - digest(before)
+        if before is None or before.sights is not place.sights:
+            for sensor in range(self.scheme.sensors):
+                was, now = -1 if before is None else before.label(sensor), place.label(sensor)
+                if was != now:
+                    self._relabel(sensor, number, was, now)
         self.places[number] = place
         self.touched[number] = None
 
@@ -150,15 +161,16 @@ class Hypothesis:
         self.size -= 1
 
     def _count(self, place: Place, sign: float) -> None:
-        yes, no, share = self.counts.yes, self.counts.no, place.share
-        yes[OPEN] += sign * share.open
-        no[OPEN] += sign * share.blocked
-        yes[WAY_MISREAD] += sign * share.ways_wrong
-        no[WAY_MISREAD] += sign * share.ways_right
-        yes[SIGHT_MISREAD] += sign * share.sights_wrong
-        no[SIGHT_MISREAD] += sign * share.sights_right
-        yes[BESIDE] += sign * share.beside_open
-        no[BESIDE] += sign * share.beside_blocked
+        yes, no = self.counts.yes, self.counts.no
+        for (rate, true), value in zip(SHARES, place.share, strict=True):
+            (yes if true else no)[rate] += sign * value
+
+    def _recount(self, before: Share, after: Share) -> None:
+        if before is after:
+            return
+        yes, no = self.counts.yes, self.counts.no
+        for (rate, true), was, now in zip(SHARES, before, after, strict=True):
+            (yes if true else no)[rate] += now - was
 
     def _relabel(self, sensor: int, number: int, was: int, now: int) -> None:
         if was >= 0:

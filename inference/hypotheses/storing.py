@@ -12,6 +12,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from ...model import CogmapError
+from .attempts import Attempt, Tried
 from .hypothesis import Hypothesis, digest
 from .layered import Layered, Shared
 from .lookback import Past
@@ -23,7 +24,6 @@ from .scheme import WayScheme
 from .streams import DAMAGED, Reader, Writer
 
 Arrays = dict[str, NDArray[Any]]
-Tried = tuple[int, int, bool, int, int]
 
 VERSION = 1
 
@@ -34,7 +34,7 @@ class Parts:
 
     hypotheses: list[Hypothesis]
     history: History
-    tried: dict[Tried, int]
+    tried: dict[Attempt, Tried]
     past: tuple[Past, ...]
     change: Change
     doubts: Sequence[int]
@@ -62,7 +62,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         out.whole += [step.time, *step.labels]
         out.real.append(step.norm)
     out.many(parts.history, out.sensed)
-    out.many(parts.tried.items(), lambda item: out.whole.extend([*map(int, item[0]), item[1]]))
+    out.many(parts.tried.items(), lambda item: out.whole.extend(map(int, (*item[0], *item[1]))))
     out.many(parts.doubts, out.whole.append)
     header = {
         "version": VERSION,
@@ -162,9 +162,9 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
     for time, sensed in source.many(lambda: source.sensed(scheme)):
         sensed.check(scheme)
         history.add(sensed, time)
-    tried: dict[Tried, int] = {}
-    for one, other, period, size, links, again in source.many(lambda: source.numbers(6)):
-        tried[one, other, bool(period), size, links] = again
+    tried: dict[Attempt, Tried] = {}
+    for one, other, period, apart, time, wait, size, links, against in source.many(lambda: source.numbers(9)):
+        tried[one, other, bool(period), apart] = Tried(time, wait, size, links, bool(against))
     doubts = source.row()
     source.end()
     kind, places = header["change"]

@@ -9,6 +9,7 @@ from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
+from .attempts import NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
 from .chances import Chances
@@ -22,13 +23,13 @@ from .pruning import log_sum, merged, normalised
 from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
-from .storing import Arrays, Parts, Tried, restored, stored
-
-AGAIN = 16
-"""Steps after which a folding that was too improbable is tried again, in a map that has not changed since."""
+from .storing import Arrays, Parts, restored, stored
 
 QUIET = 4
 """Steps without doubt after which what is improbable is let go."""
+
+NEAR = log(100.0)
+"""Hypotheses with a new place in which look-alikes are tried to be united are at most so far below the best one."""
 
 SHARED = 16
 """Steps after which several hypotheses share what they have in common."""
@@ -62,7 +63,8 @@ class Tracker:
         self._settled = -1
         self._doubts: Sequence[int] = ()
         self._doubted = 0
-        self._tried: dict[Tried, int] = {}
+        self._tried: dict[Attempt, Tried] = {}
+        self._overwritten: list[tuple[Attempt, Tried | None]] = []
         self._clear, self._quiet = True, 0
         self._past: tuple[Past, ...] = ()
 
@@ -93,6 +95,9 @@ class Tracker:
         sensed.check(self.scheme)
         if len(labels) != self.scheme.sensors:
             raise CogmapError(f"tracker: labels are {labels}; give how many each of {self.scheme.sensors} sensors has")
+        self._overwritten = []
+        if len(self._tried) > MANY:
+            self._tried = {}
         self.history.add(sensed, self.time)
         self.labels = tuple(n + 1 for n in labels)
         if self.hypotheses:
@@ -138,7 +143,12 @@ class Tracker:
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
         self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
         self._clear, self._quiet, self._past = rest
-        self._tried = {key: again for key, again in tried.items() if again < self.time + AGAIN}
+        for key, before in reversed(self._overwritten if tried is self._tried else ()):
+            if before is None:
+                tried.pop(key, None)
+            else:
+                tried[key] = before
+        self._tried, self._overwritten = tried, []
         self.history.cut(self.time)
         for h, weight in zip(self.hypotheses, checkpoint.weights, strict=True):
             h.weight, h.chances = weight, Chances(h.counts, self.labels, size=h.size)
@@ -263,7 +273,7 @@ class Tracker:
         tried = sorted(children, key=lambda h: -h.weight)
         results: list[Hypothesis] = []
         for rank, h in enumerate(tried):
-            if rank < self.options.folded or h.here == self.time:
+            if rank < self.options.folded or (h.here == self.time and h.weight > top - NEAR):
                 results.extend(self._folds(h, max([top, *(r.weight for r in results)]) - drop))
         return results
 
@@ -280,15 +290,15 @@ class Tracker:
                 yield other
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
-        """The foldings that are probable enough; what failed is tried again when the map has changed, or later."""
+        """The foldings that are probable enough."""
         for one, other, period in pairs(h):
-            key = (one, other, period, h.size, h.links)
-            if self.time < self._tried.get(key, 0):
+            key = attempt(h, one, other, period=period)
+            if self._tried.get(key, NEVER).blocks(h, self.time):
                 continue
             united = union(h, one, other, period=period, floor=floor)
-            if united is None:
-                self._tried[key] = self.time + AGAIN
-            else:
+            if isinstance(united, Hypothesis):
                 yield united
-        if len(self._tried) > MANY:
-            self._tried = {}
+            else:
+                before = self._tried.get(key)
+                self._overwritten.append((key, before))
+                self._tried[key] = (before or NEVER).again(h, self.time, contradicted=united)
