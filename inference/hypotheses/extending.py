@@ -21,10 +21,14 @@ def begin(h: Hypothesis, sensed: Sensed, time: int) -> None:
 
 def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> None:
     """Carry out `branch` on `h`, which becomes what the branch says."""
-    here, to = h.here, branch.to
-    if not sensed.told:
+    here, to, lost = h.here, branch.to, h.crowd is not None
+    h.weight, h.crowd = branch.weight, branch.crowd
+    if not sensed.told and not lost:
         _count_how(h, branch)
-    if branch.way == NOWHERE and to == here and not sensed.told:
+    if branch.crowd is not None:
+        h.here = to
+        return
+    if branch.way == NOWHERE and to == here and not sensed.told and not lost:
         _bump(h, branch, sensed)
     if to == NOWHERE:
         to = time
@@ -35,7 +39,6 @@ def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> Non
     if branch.way != NOWHERE:
         _walk(h, here, branch.way, to, branch)
     _look(h, to, sensed, time)
-    h.weight = branch.weight
 
 
 def _place_new(h: Hypothesis, number: int, *, frame: int, position: tuple[int, ...]) -> None:

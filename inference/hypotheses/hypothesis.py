@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from operator import add
 
 from ...model import Periods, reduced
@@ -36,6 +36,8 @@ class Hypothesis:
             it is not known beforehand which do.
         periods: of the charts that close on themselves, by frame.
         here: the place the agent is in.
+        crowd: where the agent may be, with log probabilities, if that is open in this map: `here` is the likeliest, and
+            nothing is learned of places; None otherwise.
         weight: log posterior weight.
         digest: the same for maps that are the same, whatever their places are numbered; hardly ever for others.
         size, links: number of places, and of ways between them (both directions are one).
@@ -46,8 +48,8 @@ class Hypothesis:
     """
 
     __slots__ = (
-        "apart", "at", "chances", "counts", "digest", "here", "kinds", "links", "origin", "periods", "places", "scheme",
-        "shown", "size", "touched", "undo", "weight",
+        "apart", "at", "chances", "counts", "crowd", "digest", "here", "kinds", "links", "origin", "periods", "places",
+        "scheme", "shown", "size", "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -64,6 +66,7 @@ class Hypothesis:
         self.size = self.links = self.digest = 0
         self.origin: Hypothesis | None = None
         self.apart = False
+        self.crowd: Mapping[int, float] | None = None
         self.touched: dict[int, None] = {}
         self.chances = Chances(self.counts, [1] * scheme.sensors)
 
@@ -75,7 +78,8 @@ class Hypothesis:
         other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
         other.undo = self.undo.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
-        other.origin, other.touched, other.digest, other.apart = None, {}, self.digest, self.apart
+        other.origin, other.touched, other.digest = None, {}, self.digest
+        other.apart, other.crowd = self.apart, self.crowd
         return other
 
     @property

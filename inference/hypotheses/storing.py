@@ -55,6 +55,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         _write_maps(out, h, 1)
         out.whole += [h.here, h.size, h.links, h.apart, *h.kinds]
         out.real += [h.weight, *h.counts.yes, *h.counts.no]
+        out.many((h.crowd or {}).items(), out.count)
         for (one, other), counts in h.undo.items():
             out.whole += [one, other]
             out.real += counts
@@ -230,6 +231,7 @@ def _read_hypothesis(scheme: WayScheme, entry: Mapping[str, Any], shared: Bases,
     h.apart = bool(apart)
     rates = len(RATE_PRIORS)
     h.weight, *counts = source.reals(1 + 2 * rates)
+    h.crowd = source.counts() or None
     h.counts = RateCounts(counts[:rates], counts[rates:])
     h.periods = {int(frame): tuple(tuple(int(x) for x in row) for row in rows) for frame, rows in entry["periods"]}
     for _ in range(entry["undo"]):

@@ -17,9 +17,11 @@ from .evidence import log_predictive
 from .extending import begin, extend
 from .folding import pairs, union
 from .hypothesis import Hypothesis, settle_alike
+from .logs import log_sum
 from .lookback import BACK, Past, passed_over
 from .options import Change, Checkpoint, TrackerOptions
-from .pruning import log_sum, merged, normalised
+from .pruning import merged, normalised
+from .reading import whereabouts
 from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
@@ -112,13 +114,13 @@ class Tracker:
     def certainty(self) -> float:
         """Probability of the hypotheses that agree with the best one on where the agent is."""
         best = self.best
-        recent = best.places[best.here].recent
-        before = recent[-2] if len(recent) > 1 else None
+        before = _before(best)
         total = 0.0
         for h in self.hypotheses:
-            other = h.places[h.here].recent
-            same = h.here == best.here or (other[-2] if len(other) > 1 else None) == before
-            total += exp(h.weight) * same
+            if h.crowd is not None or best.crowd is not None:
+                total += exp(h.weight) * whereabouts(h).get(best.here, 0.0)
+            else:
+                total += exp(h.weight) * (h.here == best.here or _before(h) == before)
         return min(total, 1.0)
 
     # -- going back, and files ----------------------------------------------------------------------------
@@ -249,7 +251,7 @@ class Tracker:
 
     def _happened(self, sensed: Sensed, drop: float) -> list[Alternative]:
         """The branches that may survive."""
-        if self.options.calm and len(self.hypotheses) == 1:
+        if self.options.calm and len(self.hypotheses) == 1 and self.hypotheses[0].crowd is None:
             alone = calm_branches(self.hypotheses[0], sensed, drop=drop)
             if alone:
                 return alone
@@ -273,12 +275,16 @@ class Tracker:
         tried = sorted(children, key=lambda h: -h.weight)
         results: list[Hypothesis] = []
         for rank, h in enumerate(tried):
+            if h.crowd is not None:
+                continue
             if rank < self.options.folded or (h.here == self.time and h.weight > top - NEAR):
                 results.extend(self._folds(h, max([top, *(r.weight for r in results)]) - drop))
         return results
 
     def _without(self, h: Hypothesis, drop: float) -> Iterator[Hypothesis]:
         """The most probable hypothesis without some place that it may only have imagined; one is looked at a step."""
+        if h.crowd is not None:
+            return
         if self._doubted == 0:
             self._doubts = list(h.places)
             self._doubted = len(self._doubts)
@@ -302,3 +308,9 @@ class Tracker:
                 before = self._tried.get(key)
                 self._overwritten.append((key, before))
                 self._tried[key] = (before or NEVER).again(h, self.time, contradicted=united)
+
+
+def _before(h: Hypothesis) -> int | None:
+    """When the agent was last where it is now, before now."""
+    recent = h.places[h.here].recent
+    return recent[-2] if len(recent) > 1 else None
