@@ -237,8 +237,11 @@ def test_what_it_is_told_of_a_move_is_believed():
         (lambda header, arrays: ({**header, "version": 99}, arrays), "version 99"),
         (lambda header, arrays: ({**header, "scheme": {}}, arrays), "other ways or sensors"),
         (lambda header, arrays: (header, {"whole": arrays["whole"]}), "damaged"),
-        (lambda header, arrays: (header, {**arrays, "whole": arrays["whole"][:-1]}), "ends too soon"),
-        (lambda header, arrays: (header, {**arrays, "real": np.append(arrays["real"], 1.0)}), "goes on"),
+        (lambda header, arrays: (header, {**arrays, "whole": arrays["whole"][:-1]}), "not those that were written"),
+        (
+            lambda header, arrays: (header, {**arrays, "real": np.append(arrays["real"], 1.0)}),
+            "not those that were written",
+        ),
         (lambda header, arrays: (header, {**arrays, "real": arrays["real"] * np.nan}), "damaged"),
         (lambda header, arrays: (header, {**arrays, "whole": arrays["whole"].astype(float)}), "no row of int64"),
         (lambda header, arrays: ({**header, "numbers": [20, 10_000, True, 0]}, arrays), "damaged"),
@@ -250,18 +253,12 @@ def test_states_that_are_none_are_refused(spoil, message):
         Tracker.restored(LATTICE, None, spoil(header, arrays))
 
 
-def test_states_with_any_number_changed_are_refused_or_walk():
-    steps = percepts(1, 25)
-    header, arrays = walked(Tracker(LATTICE), steps).state()
+def test_states_with_any_number_changed_are_refused():
+    header, arrays = walked(Tracker(LATTICE), percepts(1, 25)).state()
     rng = np.random.default_rng(0)
-    refused = 0
-    for _ in range(150):
-        whole = arrays["whole"].copy()
-        whole[rng.integers(len(whole))] += int(rng.integers(-3, 90))
-        try:
-            tracker = Tracker.restored(LATTICE, None, (header, {**arrays, "whole": whole}))
-        except CogmapError:
-            refused += 1
-            continue
-        walked(tracker, [replace(steps[1], action=None)])
-    assert refused > 20
+    for name in ("whole", "real"):
+        for _ in range(20):
+            changed = arrays[name].copy()
+            changed[rng.integers(len(changed))] += 1
+            with pytest.raises(CogmapError, match="damaged"):
+                Tracker.restored(LATTICE, None, (header, {**arrays, name: changed}))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import exp, isfinite
@@ -79,7 +81,14 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         "change": [parts.change.kind, list(parts.change.places)],
         "length": parts.history.length,
     }
-    return header, out.rows()
+    arrays = out.rows()
+    return {**header, "check": _checksum(header, arrays)}, arrays
+
+
+def _checksum(header: Mapping[str, Any], arrays: Mapping[str, Any]) -> int:
+    """Of all that is written, so that what was changed or cut is found before anything is believed of it."""
+    text = json.dumps({key: value for key, value in header.items() if key != "check"}, sort_keys=True)
+    return zlib.crc32(arrays["real"].tobytes(), zlib.crc32(arrays["whole"].tobytes(), zlib.crc32(text.encode())))
 
 
 def restored(scheme: WayScheme, state: Any) -> Parts:
@@ -98,7 +107,10 @@ def restored(scheme: WayScheme, state: Any) -> Parts:
     if described != _described(scheme):
         raise CogmapError("tracker: the state is of other ways or sensors; give the scheme that it was made with")
     try:
-        return _read(scheme, header, Reader(arrays["whole"], arrays["real"]))
+        source = Reader(arrays["whole"], arrays["real"])
+        if _checksum(header, arrays) != header["check"]:
+            raise ValueError("its numbers are not those that were written")
+        return _read(scheme, header, source)
     except (TypeError, ValueError, KeyError, IndexError, OverflowError) as error:
         raise CogmapError(DAMAGED.format(error)) from error
 
@@ -273,3 +285,7 @@ def _check_index(h: Hypothesis) -> None:
         raise ValueError("its index names places that it has not")
     if sum(1 for _ in h.places) != h.size:
         raise ValueError("its map has not as many places as it says")
+    shown = {(sensor, label, k) for sensor, label in h.shown for k in h.shown.get((sensor, label)) or ()}
+    labels = {(s, label, k) for k in h.places for s in range(h.scheme.sensors) if (label := h.places[k].label(s)) >= 0}
+    if shown != labels:
+        raise ValueError("its index of sights is not that of its places")
