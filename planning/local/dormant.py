@@ -35,7 +35,8 @@ def dormant(blocked: Floats, motions: Motions) -> NDArray[np.bool_]:
     opened[motions.stay] = shut[motions.stay] = 0
     every, looks = int(opened.sum()), int(shut.sum()) + int(opened.sum())
     rate = (every + 1.0) / (looks + 2.0)
-    asleep = (opened + opened[list(motions.inverse)] == 0) & (STRENGTH * rate < RARE * (shut + STRENGTH))
+    back = np.where(np.array(motions.inverse) >= 0, opened[list(motions.inverse)], 0)
+    asleep = (opened + back == 0) & (STRENGTH * rate < RARE * (shut + STRENGTH))
     asleep[motions.stay] = False
     return asleep
 
