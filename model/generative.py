@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .changes import Change, Changes, Store
 from .dirichlet import SparseDirichlet
 from .errors import CogmapError
-from .factors import Displacement, Lattice, ModelFactor, Pose, Sensor, Sight, Transition, Ways
+from .factors import Displacement, Lattice, ModelFactor, NoPose, Pose, Sensor, Sight, Transition, Ways
 from .factors.base import Context
 from .growth_event import GrowthEvent, GrowthKind
 from .growth_log import GrowthLog
@@ -71,7 +71,9 @@ class GenerativeModel:
         self.growth = GrowthLog()
         self.visits = Visits(self.changes)
         self.transitions = Transition()
-        self.pose = pose or Lattice()
+        self.pose = pose or (Lattice() if motions.placed else NoPose())
+        if isinstance(self.pose, Lattice) and not motions.placed:
+            raise CogmapError("pose: these actions have no displacements, so places have no positions; give NoPose()")
         self.displacement = None if displacement is None else Displacement(displacement)
         given = [Sight(), Ways()] if sensors is None else list(sensors)
         self.sensors = {sensor.name: sensor for sensor in given}
@@ -157,7 +159,8 @@ class GenerativeModel:
             self._settle(place, position, step)
         elif source is not None and action is not None:
             self.transitions.link(source, action, place)
-            self.transitions.link(place, self.motions.inverse[action], source)
+            if self.motions.inverse[action] >= 0:
+                self.transitions.link(place, self.motions.inverse[action], source)
         return place
 
     def bind(
