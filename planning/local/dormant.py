@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model import EMPTY, Motions, dirichlet_information
-from .cache import PlaceRows
+from .cache import WayRows
 from .transitions import Floats, Ints
 from .view import MapView
 
@@ -41,7 +41,7 @@ def dormant(blocked: Floats, motions: Motions) -> NDArray[np.bool_]:
     return asleep
 
 
-def leave_out_dormant(map_: MapView, places: Ints, rows: PlaceRows, entered: NDArray[np.bool_]) -> None:
+def leave_out_dormant(map_: MapView, places: Ints, rows: WayRows, entered: NDArray[np.bool_]) -> None:
     """Let the ways of places never entered be shut where the action is dormant, and looks at them teach nothing."""
     ahead, asleep = np.flatnonzero(~entered), dormant(rows.blocked[:-1][entered], map_.motions)
     if not len(ahead) or not asleep.any():
