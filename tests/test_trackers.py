@@ -18,6 +18,7 @@ from cogmap.inference.hypotheses import (
     open_probability,
     rates_of,
     where_to,
+    whereabouts,
 )
 from cogmap.model import CogmapError
 from hypothesis import given, settings
@@ -262,3 +263,39 @@ def test_states_with_any_number_changed_are_refused():
             changed[rng.integers(len(changed))] += 1
             with pytest.raises(CogmapError, match="damaged"):
                 Tracker.restored(LATTICE, None, (header, {**arrays, name: changed}))
+
+
+def test_where_it_was_put_among_many_places_is_one_message_over_one_map():
+    size, tracker = 5, Tracker(LATTICE)
+    at, actions = (0, 0), [None]
+    for row in range(size):
+        actions += [3 if row % 2 == 0 else 2] * (size - 1) + [1] * (row < size - 1)
+    at_of: dict[int, tuple[int, int]] = {}
+
+    def sensed(action: int | None, *, seen: bool = True, told: bool = False) -> Sensed:
+        ways = tuple(float(_beyond(at, way, size) != at) for way in range(4))
+        return Sensed((at[0] * size + at[1] if seen else None,), ways, action, told=told)
+
+    for action in actions:
+        at = at if action is None else _beyond(at, action, size)
+        tracker.step(sensed(action), [size * size])
+        at_of[tracker.best.here] = at
+    assert len(at_of) == size * size
+    at = (2, 1)
+    tracker.step(sensed(None, seen=False, told=True), [size * size])
+    inner = [number for number, where in at_of.items() if min(where) > 0 and max(where) < size - 1]
+    assert tracker.best.crowd is not None
+    assert sum(whereabouts(tracker.best).values()) == pytest.approx(1.0, abs=1e-6)
+    assert [whereabouts(tracker.best)[number] for number in inner] == pytest.approx([1 / 9] * 9, rel=0.1)
+    assert tracker.certainty() < 0.2
+    before, size_before = tracker.best.counts.yes, tracker.best.size
+    other = Tracker.restored(LATTICE, None, tracker.state())
+    for action in (0, 0, 2):
+        at = _beyond(at, action, size)
+        for one in (tracker, other):
+            one.step(sensed(action, seen=False), [size * size])
+    assert at_of[tracker.best.here] == at == (0, 0)
+    assert tracker.certainty() > 0.95
+    assert summary(tracker) == summary(other)
+    assert tracker.best.size == size_before
+    assert len(before) == len(tracker.best.counts.yes)

@@ -12,6 +12,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from ...model import CogmapError
+from .attempts import Attempt, Tried
 from .hypothesis import Hypothesis, digest
 from .layered import Layered, Shared
 from .lookback import Past
@@ -23,7 +24,6 @@ from .scheme import WayScheme
 from .streams import DAMAGED, Reader, Writer
 
 Arrays = dict[str, NDArray[Any]]
-Tried = tuple[int, int, bool, int, int]
 
 VERSION = 1
 
@@ -34,7 +34,7 @@ class Parts:
 
     hypotheses: list[Hypothesis]
     history: History
-    tried: dict[Tried, int]
+    tried: dict[Attempt, Tried]
     past: tuple[Past, ...]
     change: Change
     doubts: Sequence[int]
@@ -55,6 +55,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         _write_maps(out, h, 1)
         out.whole += [h.here, h.size, h.links, h.apart, *h.kinds]
         out.real += [h.weight, *h.counts.yes, *h.counts.no]
+        out.many((h.crowd or {}).items(), out.count)
         for (one, other), counts in h.undo.items():
             out.whole += [one, other]
             out.real += counts
@@ -62,7 +63,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         out.whole += [step.time, *step.labels]
         out.real.append(step.norm)
     out.many(parts.history, out.sensed)
-    out.many(parts.tried.items(), lambda item: out.whole.extend([*map(int, item[0]), item[1]]))
+    out.many(parts.tried.items(), lambda item: out.whole.extend(map(int, (*item[0], *item[1]))))
     out.many(parts.doubts, out.whole.append)
     header = {
         "version": VERSION,
@@ -162,9 +163,9 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
     for time, sensed in source.many(lambda: source.sensed(scheme)):
         sensed.check(scheme)
         history.add(sensed, time)
-    tried: dict[Tried, int] = {}
-    for one, other, period, size, links, again in source.many(lambda: source.numbers(6)):
-        tried[one, other, bool(period), size, links] = again
+    tried: dict[Attempt, Tried] = {}
+    for one, other, period, apart, time, wait, size, links, against in source.many(lambda: source.numbers(9)):
+        tried[one, other, bool(period), apart] = Tried(time, wait, size, links, bool(against))
     doubts = source.row()
     source.end()
     kind, places = header["change"]
@@ -230,6 +231,7 @@ def _read_hypothesis(scheme: WayScheme, entry: Mapping[str, Any], shared: Bases,
     h.apart = bool(apart)
     rates = len(RATE_PRIORS)
     h.weight, *counts = source.reals(1 + 2 * rates)
+    h.crowd = source.counts() or None
     h.counts = RateCounts(counts[:rates], counts[rates:])
     h.periods = {int(frame): tuple(tuple(int(x) for x in row) for row in rows) for frame, rows in entry["periods"]}
     for _ in range(entry["undo"]):
