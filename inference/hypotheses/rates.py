@@ -57,8 +57,8 @@ def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
     return RatePrior(name, meaning, ((1.0, yes, no),))
 
 
-CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.1, 0.5, 20.0))
-"""Moves hardly ever go wrong, or else they do often enough."""
+CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 0.5, 2.0))
+"""It hardly ever happens, or else often enough, or else very often."""
 
 RATE_PRIORS = (
     _beta("open", 1.0, 1.0, "a way is open"),
