@@ -10,14 +10,14 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import Belief, Message, Rivals
-from ..model import STEPS, CogmapError, CognitiveMap, Percept, Slice, Table, encode, plain, window_graph
-from .state import Choice, GivenPreferences, Moment, State
+from ..inference import Belief, Message
+from ..model import CogmapError, CognitiveMap, Percept, Slice, Table, encode, plain, window_graph
+from .state import Choice, GivenPreferences, State
 
 Arrays = dict[str, NDArray[Any]]
 
 RECORDS: dict[str, type[Any]] = {
-    kind.__name__: kind for kind in (State, Belief, Message, Rivals, Slice, Table, Percept, Moment, Choice)
+    kind.__name__: kind for kind in (State, Belief, Message, Slice, Table, Percept, Choice)
 } | {"GivenPreferences": GivenPreferences}
 """What is taken apart field by field, by name."""
 
@@ -80,8 +80,7 @@ def unpacked_state(packed: Any, arrays: Mapping[str, NDArray[Any]], map_: Cognit
         CogmapError: belief or window are not about the map.
     """
     state: State = unpack(packed, arrays)
-    state.window, state.recent = deque(state.window, maxlen=window + 1), deque(state.recent, maxlen=STEPS)
-    _check_rivals(state.rivals)
+    state.window = deque(state.window, maxlen=window + 1)
     if state.belief is not None:
         _check_belief(state.belief, map_)
     for slice_ in state.window:
@@ -92,15 +91,6 @@ def unpacked_state(packed: Any, arrays: Mapping[str, NDArray[Any]], map_: Cognit
     for variable in window_graph(map_, state.window).variables:  # its factors check their shapes
         assert variable.domain
     return state
-
-
-def _check_rivals(rivals: Rivals) -> None:
-    lists = rivals.since, rivals.visits, rivals.odds, rivals.coincidence
-    if rivals.positions.ndim != 2 or not all(map(_is_list, lists)) or {*map(len, lists)} != {len(rivals.positions)}:
-        raise CogmapError("the lists of the rivals do not fit one another")
-    kinds = "".join(part.dtype.kind for part in (rivals.positions, *lists))
-    if len(rivals.odds) and (kinds != "iiiff" or not np.isfinite([*rivals.odds, *rivals.coincidence]).all()):
-        raise CogmapError("the rivals are no numbers")
 
 
 def _check_belief(belief: Belief, map_: CognitiveMap) -> None:

@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 from ..model import CogmapError, write_through
 from .parts import MissingPart
 from .schema_2 import from_schema_2
+from .schema_3 import from_schema_3
 
-SCHEMA, OLDEST = 3, 2
+SCHEMA, OLDEST = 4, 2
 """Version of the layout of the file, and the oldest that can be read."""
 
 FORMAT = "cogmap agent"
@@ -51,9 +52,11 @@ def read(path: str | PathLike[str]) -> tuple[dict[str, Any], dict[str, NDArray[A
     """
     arrays = _read(Path(path))
     header = _header(Path(path), arrays)
-    if header["schema"] == 2:
-        with damage(path):
+    with damage(path):
+        if header["schema"] == 2:
             return from_schema_2(header, arrays)
+        if header["schema"] == 3:
+            return from_schema_3(header), arrays
     return header, arrays
 
 

@@ -1,8 +1,31 @@
 """Hypotheses about the map: which visits were to the same place, weighed and kept while the answer is open."""
 
+from .branches import Lead
 from .hypothesis import Hypothesis
-from .records import NOWHERE, Place, Way
+from .knowing import tracker_knowing
+from .options import Change, Checkpoint, TrackerOptions
+from .reading import RateOf, label_probabilities, open_probability, rates_of, where_to
+from .records import NOWHERE, Place, Share, Way
 from .scheme import Sensed, WayScheme
-from .tracker import Tracker, TrackerOptions
+from .tracker import Tracker
 
-__all__ = ["NOWHERE", "Hypothesis", "Place", "Sensed", "Tracker", "TrackerOptions", "Way", "WayScheme"]
+__all__ = [
+    "NOWHERE",
+    "Change",
+    "Checkpoint",
+    "Hypothesis",
+    "Lead",
+    "Place",
+    "RateOf",
+    "Sensed",
+    "Share",
+    "Tracker",
+    "TrackerOptions",
+    "Way",
+    "WayScheme",
+    "label_probabilities",
+    "open_probability",
+    "rates_of",
+    "tracker_knowing",
+    "where_to",
+]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import log
+from math import exp, inf, log
 from typing import NamedTuple
 
 from .evidence import log_likelihood, log_predictive, probability, way_odds
 from .hypothesis import Hypothesis
+from .rates import OPEN
 from .records import NOWHERE, Place
 from .scheme import Sensed
 
@@ -49,57 +50,80 @@ class Lead(NamedTuple):
     off: float
 
 
-def branches(h: Hypothesis, sensed: Sensed, *, drop: float) -> Iterator[Alternative]:
-    """What may have happened, as far as it is within `drop` (nats) of the most probable so far."""
-    walker = _Walker(h, sensed)
+def branches(h: Hypothesis, sensed: Sensed, *, drop: float, floor: float = -inf) -> Iterator[Alternative]:
+    """What may have happened, as far as it is above `floor` and within `drop` (nats) of the most probable so far."""
+    walker = Walker(h, sensed)
+    walker.floor = floor
     for branch in walker.moves():
         walker.floor = max(walker.floor, branch.weight - drop)
         yield branch
 
 
-class _Walker:
-    """The branches of one hypothesis; evidence of a place is worked out once."""
+class Walker:
+    """The branches of one hypothesis; evidence of a place is worked out once.
+
+    Attributes:
+        floor: log weight below which branches need not be named.
+        unseen: places that are thought to be there but were never seen.
+        put_there: log P(the agent was moved into a certain place).
+        arrived: places that a branch leads to with no change of the map.
+    """
 
     def __init__(self, h: Hypothesis, sensed: Sensed) -> None:
         self.h, self.sensed, self.chances = h, sensed, h.chances
         self.place = h.places[h.here]
-        self.open = [probability(way_odds(h, h.here, self.place, way)) for way in range(h.scheme.count)]
+        self._open: dict[int, float] = {}
         self.evidence: dict[int, float] = {}
-        self.floor = -float("inf")
+        self.floor = -inf
+        self.unseen = unseen(h)
+        self.put_there = (0.0 if sensed.told else log(self.chances.moved)) - log(h.size + self.unseen)
+        self.arrived: set[int] = set()
 
     def moves(self) -> Iterator[Alternative]:
+        """All branches but those that are far below `floor`."""
         h, action, chances = self.h, self.sensed.action, self.chances
         if self.sensed.told:
-            yield from self._moved(0.0)
+            yield from self._moved()
             return
         astray = 0.0 if self.sensed.certain else chances.astray
         each = astray / h.scheme.count
         stayed = h.weight + log(1.0 - chances.moved)
         if action is not None:
             yield from self._walk(action, stayed + log(1.0 - astray), 0.0)
-        yield self._stay(stayed, astray, each)
+        yield self.stay(stayed, astray, each)
         if each > 0.0 and stayed + log(each) > self.floor:
             for way in range(h.scheme.count):
                 if way != action:
                     yield from self._walk(way, stayed + log(each), 1.0)
-        yield from self._moved(h.weight + log(chances.moved))
+        yield from self._moved()
 
-    def _stay(self, before: float, astray: float, each: float) -> Alternative:
+    def open(self, way: int) -> float:
+        """P(open) of a way of the place it is in."""
+        found = self._open.get(way)
+        if found is None:
+            found = self._open[way] = probability(way_odds(self.h, self.h.here, self.place, way))
+        return found
+
+    def stay(self, before: float, astray: float, each: float) -> Alternative:
+        """It is where it was: told to stay, blocked, failed, or put there."""
         action, fails = self.sensed.action, self.chances.fails
-        stays = [1.0 - p * (1.0 - fails) for p in self.open]
+        self.arrived.add(self.h.here)
+        stays = [1.0 - self.open(way) * (1.0 - fails) for way in range(self.h.scheme.count)]
         lost = each * (1.0 + sum(p for way, p in enumerate(stays) if way != action))
         given = (1.0 - astray) * (1.0 if action is None else stays[action])
-        failed = 0.0 if action is None else (1.0 - astray) * self.open[action] * fails
-        total = given + lost
-        weight = before + log(total) + self._at(self.h.here)
-        return Alternative(weight, self.h, NOWHERE, self.h.here, False, lost / total, failed / total, 0.0)
+        failed = 0.0 if action is None else (1.0 - astray) * self.open(action) * fails
+        put_here = exp(self.put_there + self.h.weight - before)
+        total = given + lost + put_here
+        weight = before + log(total) + self.at(self.h.here)
+        parts = lost / total, failed / total, put_here / total
+        return Alternative(weight, self.h, NOWHERE, self.h.here, False, *parts)
 
     def _walk(self, way: int, before: float, astray: float) -> Iterator[Alternative]:
-        h, p = self.h, self.open[way] * (1.0 - self.chances.fails)
+        h, p = self.h, self.open(way) * (1.0 - self.chances.fails)
         before += log(p)
         lead = leads(h, h.here, self.place, way)
         if lead.to != NOWHERE:
-            yield Alternative(before + log(lead.sure) + self._at(lead.to), h, way, lead.to, False, astray, 0.0, 0.0)
+            yield self.along(way, lead, before, astray)
         back = None if h.scheme.inverse is None else h.scheme.inverse[way]
         if lead.new > 0.0 and before + log(lead.new) > self.floor:
             key = h.beyond(self.place, way)
@@ -109,25 +133,43 @@ class _Walker:
             weight = before + log(lead.off) + log_predictive(h, self.sensed, None, back, h.here)
             yield Alternative(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
 
-    def _moved(self, before: float) -> Iterator[Alternative]:
-        h = self.h
-        unseen = max(0.5, 0.5 * (h.counts.yes[0] - h.links))
-        each = before - log(h.size + unseen)
-        if each + log(max(unseen, 1.0)) <= self.floor:
+    def along(self, way: int, lead: Lead, before: float, astray: float) -> Alternative:
+        """Along a way; if it was walked before, being put there makes the same map, so the two are one branch."""
+        weight, moved = before + log(lead.sure), 0.0
+        if self.place.ways[way].walks and lead.to not in self.arrived:
+            self.arrived.add(lead.to)
+            ratio = exp(self.put_there + self.h.weight - weight)
+            weight, moved = weight + log(1.0 + ratio), ratio / (1.0 + ratio)
+        weight += self.at(lead.to)
+        return Alternative(weight, self.h, way, lead.to, False, astray * (1.0 - moved), 0.0, moved)
+
+    def _moved(self) -> Iterator[Alternative]:
+        h, each = self.h, self.h.weight + self.put_there
+        if each + log(max(self.unseen, 1.0)) <= self.floor:
             return
-        reading = self.sensed.sights[0]
-        alike = h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(h.places)
-        for number in alike[-LOOK_ALIKES:]:
-            if number != h.here:
-                yield Alternative(each + self._at(number), h, NOWHERE, number, False, 0.0, 0.0, 1.0)
-        weight = each + log(unseen) + log_predictive(h, self.sensed, None, None, NOWHERE)
+        for number in look_alikes(h, self.sensed):
+            if number not in self.arrived:
+                yield Alternative(each + self.at(number), h, NOWHERE, number, False, 0.0, 0.0, 1.0)
+        weight = each + log(self.unseen) + log_predictive(h, self.sensed, None, None, NOWHERE)
         yield Alternative(weight, h, NOWHERE, NOWHERE, False, 0.0, 0.0, 1.0)
 
-    def _at(self, number: int) -> float:
+    def at(self, number: int) -> float:
+        """log P(sensed | that place)."""
         found = self.evidence.get(number)
         if found is None:
             found = self.evidence[number] = log_likelihood(self.h, number, self.sensed)
         return found
+
+
+def unseen(h: Hypothesis) -> float:
+    """Places that are thought to be there but were never seen: half of the open ways that lead to no known place."""
+    return max(0.5, 0.5 * (h.counts.yes[OPEN] - h.links))
+
+
+def look_alikes(h: Hypothesis, sensed: Sensed) -> tuple[int, ...]:
+    """Places that may look like what is sensed, those first seen last."""
+    reading = sensed.sights[0] if sensed.sights else None
+    return (h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(h.places))[-LOOK_ALIKES:]
 
 
 def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:
@@ -159,7 +201,7 @@ def _returns(h: Hypothesis, place: Place, way: int) -> Lead:
     """Without poses: back to where the agent once came from, as far as actions were found to undo each other."""
     best, sure = NOWHERE, 0.0
     if h.scheme.inverse is None:
-        for source, by in place.into:
+        for source, by in sorted(place.into):
             yes, no = h.undo.get((by, way), (0.0, 0.0))
             p = (yes + 0.3) / (yes + no + 0.3 * h.scheme.count)
             if p > sure:

@@ -24,7 +24,7 @@ def log_likelihood(h: Hypothesis, number: int, sensed: Sensed) -> float:
     for way, reading in enumerate(sensed.ways):
         if reading is not None:
             p *= reading_probability(chances, probability(way_odds(h, number, place, way)), reading)
-    return log(max(p, LEAST))
+    return log(max(p, LEAST)) + (0.0 if sensed.others is None else sensed.others(number))
 
 
 def log_predictive(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> float:
@@ -44,7 +44,7 @@ def log_predictive(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | N
     for way, reading in enumerate(sensed.ways):
         if reading is not None:
             p *= reading_probability(chances, _expected_open(h, key, way, back, source), reading)
-    return log(max(p, LEAST))
+    return log(max(p, LEAST)) + (0.0 if sensed.others is None else sensed.others(None))
 
 
 def sight_probability(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -> float:

@@ -22,8 +22,9 @@ def begin(h: Hypothesis, sensed: Sensed, time: int) -> None:
 def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> None:
     """Carry out `branch` on `h`, which becomes what the branch says."""
     here, to = h.here, branch.to
-    _count_how(h, branch)
-    if branch.way == NOWHERE and not branch.moved:
+    if not sensed.told:
+        _count_how(h, branch)
+    if branch.way == NOWHERE and to == here and not sensed.told:
         _bump(h, branch, sensed)
     if to == NOWHERE:
         to = time
@@ -44,14 +45,13 @@ def _place_new(h: Hypothesis, number: int, *, frame: int, position: tuple[int, .
 
 def _count_how(h: Hypothesis, branch: Alternative) -> None:
     yes, no = h.counts.yes, h.counts.no
+    kept = 1.0 - branch.moved
     yes[MOVED] += branch.moved
-    no[MOVED] += 1.0 - branch.moved
-    if branch.moved:
-        return
+    no[MOVED] += kept
     yes[ASTRAY] += branch.astray
-    no[ASTRAY] += 1.0 - branch.astray
+    no[ASTRAY] += kept - branch.astray
     yes[FAILS] += branch.failed
-    no[FAILS] += branch.way != NOWHERE
+    no[FAILS] += kept * (branch.way != NOWHERE)
 
 
 def _bump(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:

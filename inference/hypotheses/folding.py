@@ -48,8 +48,8 @@ def _built(united: Union, weight: float, more: Links) -> Hypothesis:
     h.weight, h.here = weight, united.find(h.here)
     h.links += more.ways
     touched = _neighbours(united)
-    records = {number: _resolved(united, number) for number in touched if united.find(number) == number}
-    for number in set(united.gone()):
+    records = {number: _resolved(united, number) for number in sorted(touched) if united.find(number) == number}
+    for number in sorted(set(united.gone())):
         h.remove(number)
     _chart(united, h)
     for number, place in records.items():

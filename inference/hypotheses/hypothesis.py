@@ -32,11 +32,13 @@ class Hypothesis:
         weight: log posterior weight.
         size, links: number of places, and of ways between them (both directions are one).
         chances: the rates expected at this step.
+        origin: while a step is taken in, the hypothesis that this one only extends.
+        touched: numbers of the records changed since it was forked.
     """
 
     __slots__ = (
-        "at", "chances", "counts", "here", "kinds", "links", "periods", "places", "scheme", "shown", "size", "undo",
-        "weight",
+        "at", "chances", "counts", "here", "kinds", "links", "origin", "periods", "places", "scheme", "shown", "size",
+        "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -51,6 +53,8 @@ class Hypothesis:
         self.here = NOWHERE
         self.weight = 0.0
         self.size = self.links = 0
+        self.origin: Hypothesis | None = None
+        self.touched: dict[int, None] = {}
         self.chances = Chances(self.counts, [1] * scheme.sensors)
 
     def fork(self) -> Hypothesis:
@@ -61,6 +65,7 @@ class Hypothesis:
         other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
         other.undo = self.undo.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
+        other.origin, other.touched = None, {}
         return other
 
     def settle(self) -> None:
@@ -111,6 +116,7 @@ class Hypothesis:
             if was != now:
                 self._relabel(sensor, number, was, now)
         self.places[number] = place
+        self.touched[number] = None
 
     def remove(self, number: int) -> None:
         """Take a place away."""

@@ -31,6 +31,11 @@ class Layered(Generic[K, V]):
                 self._base[key] = value
         self._own = {}
 
+    @property
+    def layers(self) -> tuple[dict[K, V], dict[K, V | None]]:
+        """The shared layer, and the own entries above it; for files."""
+        return self._base, self._own
+
     def get(self, key: K) -> V | None:
         """The entry, or None."""
         return self._own[key] if key in self._own else self._base.get(key)

@@ -60,10 +60,16 @@ def normalised(hypotheses: Sequence[Hypothesis], *, drop: float, most: int) -> l
     """Those within `drop` nats of the first, `most` at most; their weights add up to one."""
     best = hypotheses[0].weight
     kept = [h for h in hypotheses[:most] if h.weight > best - drop]
-    total = best + log(sum(exp(h.weight - best) for h in kept))
+    total = log_sum([h.weight for h in kept])
     for h in kept:
         h.weight -= total
     return kept
+
+
+def log_sum(logs: Sequence[float]) -> float:
+    """log Σ exp."""
+    most = max(logs)
+    return most + log(sum(exp(value - most) for value in logs))
 
 
 def log_add(a: float, b: float) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Collection, Iterator
+from dataclasses import replace
 from math import exp, log
 
 from .branches import leads
@@ -21,24 +22,40 @@ SELDOM = 4
 
 
 class History:
-    """The last percepts, by time."""
+    """The last percepts, by time.
+
+    Args:
+        length: how many are read; one more is kept, so that the last one can be taken back.
+    """
 
     def __init__(self, length: int = 512) -> None:
-        self._percepts: deque[Sensed] = deque(maxlen=length)
-        self.end = 0
+        self.length = length
+        self._percepts: deque[tuple[int, Sensed]] = deque(maxlen=length + 1)
 
-    def add(self, sensed: Sensed) -> None:
-        """Append one step."""
-        self._percepts.append(sensed)
-        self.end += 1
+    def add(self, sensed: Sensed, time: int) -> None:
+        """Append one step; what neither labels nor ways say is left out."""
+        self._percepts.append((time, sensed if sensed.others is None else replace(sensed, others=None)))
+
+    def cut(self, end: int) -> None:
+        """Forget what was sensed at `end` or later."""
+        while self._percepts and self._percepts[-1][0] >= end:
+            self._percepts.pop()
+
+    @property
+    def end(self) -> int:
+        """The time of the step to come."""
+        return self._percepts[-1][0] + 1 if self._percepts else 0
 
     @property
     def start(self) -> int:
-        """The time of the first step that is kept."""
-        return self.end - len(self._percepts)
+        """The time of the first step that is read."""
+        return self.end - min(self.length, len(self._percepts))
 
     def __getitem__(self, time: int) -> Sensed:
-        return self._percepts[time - self.start]
+        return self._percepts[time - self.end][1]
+
+    def __iter__(self) -> Iterator[tuple[int, Sensed]]:
+        return iter(self._percepts)
 
 
 def doubted(h: Hypothesis, number: int, history: History) -> set[int]:
@@ -143,7 +160,7 @@ def _remove(h: Hypothesis, numbers: Collection[int]) -> None:
         place = h.places[number]
         links |= {(min(number, way.to), max(number, way.to)) for way in place.ways if way.to != NOWHERE}
         touched |= {way.to for way in place.ways if way.to != NOWHERE} | {source for source, _ in place.into}
-    for number in touched - set(numbers):
+    for number in sorted(touched - set(numbers)):
         place = h.places[number]
         ways = tuple(
             Way(way.net if way.open + way.blocked else 0.0, way.open, way.blocked) if way.to in numbers else way
@@ -151,7 +168,7 @@ def _remove(h: Hypothesis, numbers: Collection[int]) -> None:
         )
         into = frozenset(source for source in place.into if source[0] not in numbers)
         h.put(number, Place(place.sights, ways, place.frame, place.position, place.recent, into, place.share))
-    for number in numbers:
+    for number in sorted(numbers):
         h.remove(number)
     h.links = max(h.links - len(links), 0)
 

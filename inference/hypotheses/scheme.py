@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import isfinite
 
@@ -58,6 +58,8 @@ class Sensed:
         action: the way that was to be taken; None for staying where it is.
         certain: the action is known to have been carried out (`taken`), so none went astray.
         told: the agent is told that it was moved.
+        others: log-likelihood of what further sensors read, neither labels nor ways, at the place of a number; at a
+            place never seen for None.
     """
 
     sights: tuple[Reading, ...]
@@ -65,6 +67,7 @@ class Sensed:
     action: int | None = None
     certain: bool = False
     told: bool = False
+    others: Callable[[int | None], float] | None = None
 
     def check(self, scheme: WayScheme) -> None:
         """Refuse what such ways and sensors cannot bring.

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from heapq import nlargest
-from math import exp, log
+from math import exp, inf, log
+from typing import Any
 
 from ...model import CogmapError
 from .branches import Alternative, branches
+from .calm import calm_branch
 from .chances import Chances
+from .evidence import log_predictive
 from .extending import begin, extend
 from .folding import pairs, union
 from .hypothesis import Hypothesis
-from .pruning import merged, normalised
+from .options import Change, Checkpoint, TrackerOptions
+from .pruning import log_sum, merged, normalised
+from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
-
-Try = tuple[int, int, bool, int, int]
+from .storing import Arrays, Tried, restored, stored
 
 AGAIN = 16
 """Steps after which a folding that was too improbable is tried again, in a map that has not changed since."""
@@ -26,39 +29,32 @@ MANY = 4096
 """Foldings that are remembered."""
 
 
-@dataclass(frozen=True, slots=True)
-class TrackerOptions:
-    """How many hypotheses are kept.
+class Tracker:
+    """Where the agent is, and in what map.
 
     Attributes:
-        most: at most so many.
-        least: those less probable than this, beside the most probable one, are dropped.
-        folded: hypotheses in which look-alikes are tried to be united, besides those that found a new place.
-
-    Raises:
-        CogmapError: a number is out of range.
+        scheme: what is known of ways beforehand.
+        options: how many hypotheses are kept.
+        hypotheses: with log weights whose exponentials add up to one, the most probable first.
+        time: steps taken in so far.
+        evidence: log P(last step | those before), of all hypotheses, in nats.
+        change: how the best hypothesis follows from the one before.
+        history: the last percepts.
     """
-
-    most: int = 32
-    least: float = 1e-5
-    folded: int = 2
-
-    def __post_init__(self) -> None:
-        if not (self.most >= 1 and 0.0 < self.least < 1.0 and self.folded >= 0):
-            raise CogmapError(f"tracker: {self} cannot work; give most >= 1, 0 < least < 1, folded >= 0")
-
-
-class Tracker:
-    """Where the agent is, and in what map: hypotheses with weights that add up to one, the most probable first."""
 
     def __init__(self, scheme: WayScheme, options: TrackerOptions | None = None) -> None:
         self.scheme = scheme
         self.options = options or TrackerOptions()
         self.hypotheses: list[Hypothesis] = []
         self.time = 0
+        self.evidence = 0.0
+        self.change = Change("revised")
         self.history = History()
-        self._doubts: list[int] = []
-        self._tried: dict[Try, int] = {}
+        self.labels: tuple[int, ...] = ()
+        self._settled = -1
+        self._doubts: Sequence[int] = ()
+        self._doubted = 0
+        self._tried: dict[Tried, int] = {}
 
     @property
     def best(self) -> Hypothesis:
@@ -71,12 +67,15 @@ class Tracker:
             raise CogmapError("tracker: it has sensed nothing yet; call step(sensed, labels) first")
         return self.hypotheses[0]
 
-    def step(self, sensed: Sensed, labels: Sequence[int]) -> None:
+    def step(self, sensed: Sensed, labels: Sequence[int]) -> float:
         """Take in one step.
 
         Args:
             sensed: what it brings.
             labels: number of labels that each sensor has shown so far, this step included.
+
+        Returns:
+            log P(sensed | the steps before), of all hypotheses that are kept, in nats.
 
         Raises:
             CogmapError: what was sensed does not fit the scheme, or there is not one number of labels a sensor.
@@ -84,15 +83,16 @@ class Tracker:
         sensed.check(self.scheme)
         if len(labels) != self.scheme.sensors:
             raise CogmapError(f"tracker: labels are {labels}; give how many each of {self.scheme.sensors} sensors has")
-        self.history.add(sensed)
-        if not self.hypotheses:
-            first = Hypothesis(self.scheme)
-            first.chances = Chances(first.counts, [n + 1 for n in labels])
-            begin(first, sensed, self.time)
-            self.hypotheses = [first]
+        self.history.add(sensed, self.time)
+        self.labels = tuple(n + 1 for n in labels)
+        if self.hypotheses:
+            self.hypotheses = self._advanced(sensed)
         else:
-            self._advance(sensed, [n + 1 for n in labels])
+            self.hypotheses = [self._first(sensed)]
+        for h in self.hypotheses:
+            h.chances, h.origin = Chances(h.counts, self.labels, size=h.size), None
         self.time += 1
+        return self.evidence
 
     def certainty(self) -> float:
         """Probability of the hypotheses that agree with the best one on where the agent is."""
@@ -106,34 +106,104 @@ class Tracker:
             total += exp(h.weight) * same
         return min(total, 1.0)
 
-    def _advance(self, sensed: Sensed, labels: Sequence[int]) -> None:
-        drop = -log(self.options.least)
-        happened: list[Alternative] = []
+    # -- going back, and files ----------------------------------------------------------------------------
+
+    def checkpoint(self) -> Checkpoint:
+        """What `rollback` needs to undo the next step; it costs as much as there are hypotheses."""
+        kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
+        return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
+
+    def rollback(self, checkpoint: Checkpoint) -> None:
+        """Be as at a checkpoint, whether the step since was finished or broken off anywhere.
+
+        Raises:
+            CogmapError: more than one step was taken since.
+        """
+        if self._settled > checkpoint.time or self.time > checkpoint.time + 1:
+            raise CogmapError(
+                f"tracker: the checkpoint is of time {checkpoint.time} and it is {self.time} now; "
+                "only the last step can be undone, so take a checkpoint before each"
+            )
+        self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
+        self.labels, self.evidence, self.change, self._doubts, self._doubted, tried = checkpoint.kept
+        self._tried = {key: again for key, again in tried.items() if again < self.time + AGAIN}
+        self.history.cut(self.time)
+        for h, weight in zip(self.hypotheses, checkpoint.weights, strict=True):
+            h.weight, h.chances = weight, Chances(h.counts, self.labels, size=h.size)
+
+    def state(self) -> tuple[dict[str, Any], Arrays]:
+        """All that `restored` needs to walk on: a header for JSON, and arrays of numbers."""
+        kept = self.time, self.evidence, self.labels, self._doubts, self._doubted
+        return stored(self.scheme, self.hypotheses, self.history, self._tried, self.change, kept)
+
+    @classmethod
+    def restored(
+        cls, scheme: WayScheme, options: TrackerOptions | None, state: tuple[Mapping[str, Any], Mapping[str, Any]]
+    ) -> Tracker:
+        """A tracker that walks on exactly as the one whose `state()` this is.
+
+        Raises:
+            CogmapError: the state is none, is damaged, or is of other ways or sensors.
+        """
+        tracker = cls(scheme, options)
+        found = restored(scheme, state)
+        tracker.hypotheses, tracker.history, tracker._tried, tracker.change, kept = found
+        tracker.time, tracker.evidence, tracker.labels, tracker._doubts, tracker._doubted = kept
+        for h in tracker.hypotheses:
+            h.chances = Chances(h.counts, tracker.labels, size=h.size)
+        return tracker
+
+    # -- one step ------------------------------------------------------------------------------------------
+
+    def _first(self, sensed: Sensed) -> Hypothesis:
+        first = Hypothesis(self.scheme)
+        first.chances = Chances(first.counts, self.labels)
+        self.evidence = log_predictive(first, sensed, None, None, NOWHERE)
+        self.change = Change("revised")
+        begin(first, sensed, self.time)
+        return first
+
+    def _advanced(self, sensed: Sensed) -> list[Hypothesis]:
+        self._settle()
+        previous, drop = self.hypotheses[0], -log(self.options.least)
         for h in self.hypotheses:
-            h.chances = Chances(h.counts, labels, size=h.size)
-            happened.extend(branches(h, sensed, drop=drop))
-        top = max(branch.weight for branch in happened)
-        happened = [branch for branch in happened if branch.weight > top - drop]
-        happened = nlargest(3 * self.options.most, happened, key=lambda branch: branch.weight)
-        children = self._extended(happened, sensed)
+            if h.chances.labels != self.labels:
+                h.chances = Chances(h.counts, self.labels, size=h.size)
+        happened = self._happened(sensed, drop)
+        self.evidence = log_sum([branch.weight for branch in happened])
+        children = [self._extended(branch, sensed) for branch in happened]
         proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
-        found = merged(children, proposed)
-        self.hypotheses = normalised(found, drop=drop, most=self.options.most)
+        found = normalised(merged(children, proposed), drop=drop, most=self.options.most)
+        best = found[0]
+        self.change = Change("extended", tuple(best.touched)) if best.origin is previous else Change("revised")
+        return found
+
+    def _settle(self) -> None:
+        """Share what the last step added, once it cannot be undone any more: nobody reads it differently by this."""
         if len(self.hypotheses) == 1:
+            self._settled = self.time
             self.hypotheses[0].settle()
 
-    def _extended(self, found: Sequence[Alternative], sensed: Sensed) -> list[Hypothesis]:
-        left: dict[int, int] = {}
-        for branch in found:
-            left[id(branch.parent)] = left.get(id(branch.parent), 0) + 1
-        children: list[Hypothesis] = []
-        for branch in found:
-            left[id(branch.parent)] -= 1
-            h = branch.parent.fork() if left[id(branch.parent)] else branch.parent  # the last child is the parent
-            h.chances = branch.parent.chances
-            children.append(h)
-            extend(h, branch, sensed, self.time)
-        return children
+    def _happened(self, sensed: Sensed, drop: float) -> list[Alternative]:
+        """The branches that may survive."""
+        if self.options.calm and len(self.hypotheses) == 1:
+            alone = calm_branch(self.hypotheses[0], sensed, drop=drop)
+            if alone is not None:
+                return [alone]
+        happened: list[Alternative] = []
+        floor = -inf
+        for h in self.hypotheses:
+            for branch in branches(h, sensed, drop=drop, floor=floor):
+                floor = max(floor, branch.weight - drop)
+                happened.append(branch)
+        happened = [branch for branch in happened if branch.weight > floor]
+        return nlargest(3 * self.options.most, happened, key=lambda branch: branch.weight)
+
+    def _extended(self, branch: Alternative, sensed: Sensed) -> Hypothesis:
+        h = branch.parent.fork()
+        h.origin = branch.parent
+        extend(h, branch, sensed, self.time)
+        return h
 
     def _folded(self, children: Sequence[Hypothesis], drop: float) -> list[Hypothesis]:
         top = max(h.weight for h in children)
@@ -146,9 +216,11 @@ class Tracker:
 
     def _without(self, h: Hypothesis, drop: float) -> Iterator[Hypothesis]:
         """The most probable hypothesis without some place that it may only have imagined; one is looked at a step."""
-        if not self._doubts:
+        if self._doubted == 0:
             self._doubts = list(h.places)
-        number = self._doubts.pop()
+            self._doubted = len(self._doubts)
+        self._doubted -= 1
+        number = self._doubts[self._doubted]
         if h.places.get(number) is not None and (numbers := doubted(h, number, self.history)):
             other = without(h, numbers, self.history, floor=h.weight - drop)
             if other is not None:
@@ -166,4 +238,4 @@ class Tracker:
             else:
                 yield united
         if len(self._tried) > MANY:
-            self._tried.clear()
+            self._tried = {}

@@ -70,14 +70,14 @@ class Ways(Sensor):
         """A way is as likely open as not."""
         return (len(self._motions) - 1) * log(0.5)
 
-    def learn(self, place: int, reading: Sequence[bool], weight: float) -> None:
+    def learn(self, place: int, reading: Sequence[bool | None], weight: float) -> None:
         """What is sensed of the doors of `place`.
 
         Each look leaves the counts of one look at least, and takes the contrary away: many looks say no more than one,
         and what has faded comes back. The other side of a door learns of it when it changes.
         """
         for action, is_open in enumerate(reading):
-            if action == self._motions.stay:
+            if action == self._motions.stay or is_open is None:
                 continue
             before = int(self._transitions.sensed.values[place, action])
             if before == (OPEN if is_open else BLOCKED) and self._settled(place, action, weight, is_open=is_open):

@@ -1,0 +1,124 @@
+"""The short way of a step that leaves no doubt: one branch, where bounds show that no other can survive."""
+
+from __future__ import annotations
+
+from math import exp, log
+
+from .branches import Alternative, Lead, Walker, leads, look_alikes
+from .evidence import log_predictive, new_sight_probability, sight_probability
+from .hypothesis import Hypothesis
+from .records import NOWHERE
+from .scheme import Sensed
+
+LEAST = 1e-300
+
+
+def calm_branch(h: Hypothesis, sensed: Sensed, *, drop: float) -> Alternative | None:
+    """What has happened, if every alternative is less probable by `drop` nats or more; None where that is not sure."""
+    if sensed.told:
+        return None
+    return _Calm(h, sensed).alone(drop)
+
+
+class _Calm:
+    """The expected branch of one hypothesis, and bounds of the others: ways are taken to fit as well as any can."""
+
+    def __init__(self, h: Hypothesis, sensed: Sensed) -> None:
+        self.h, self.sensed, self.chances = h, sensed, h.chances
+        self.walker = Walker(h, sensed)
+        self.ways = self._best_ways()
+        self.astray = 0.0 if sensed.certain else h.chances.astray
+        self.stayed = h.weight + log(1.0 - h.chances.moved)
+        self.put_there = h.weight + self.walker.put_there
+
+    def alone(self, drop: float) -> Alternative | None:
+        action = self.sensed.action
+        lead = None if action is None else leads(self.h, self.h.here, self.walker.place, action)
+        main = self._main(lead)
+        floor = main.weight - drop
+        sure = self._others_fail(main, lead, floor) and self._astray_fails(main, floor)
+        return main if sure and self._moved_fails(main, floor) else None
+
+    def _main(self, lead: Lead | None) -> Alternative:
+        h, action, walker = self.h, self.sensed.action, self.walker
+        each = self.astray / h.scheme.count
+        if action is None or lead is None or walker.open(action) < 0.5:
+            return walker.stay(self.stayed, self.astray, each)
+        before = self.stayed + log(1.0 - self.astray) + log(walker.open(action) * (1.0 - self.chances.fails))
+        if lead.to != NOWHERE:
+            return walker.along(action, lead, before, 0.0)
+        back = None if h.scheme.inverse is None else h.scheme.inverse[action]
+        key = h.beyond(walker.place, action)
+        weight = before + log(lead.new) + log_predictive(h, self.sensed, key, back, h.here)
+        return Alternative(weight, h, action, NOWHERE, True, 0.0, 0.0, 0.0)
+
+    def _others_fail(self, main: Alternative, lead: Lead | None, floor: float) -> bool:
+        """Staying (or, for a move that fails, walking), and the same way leading elsewhere."""
+        h, action = self.h, self.sensed.action
+        if action is None or lead is None:
+            return True
+        given = 1.0 - self.astray
+        ahead = self.stayed + log(given)
+        if main.to == h.here and main.way == NOWHERE:
+            ahead += log(self.walker.open(action))
+            if lead.to != NOWHERE and ahead + log(lead.sure + exp(self.put_there - ahead)) + self._at(lead.to) > floor:
+                return False
+            left = lead.new + lead.off
+        else:
+            stays = given * (1.0 - self.walker.open(action) * (1.0 - self.chances.fails)) + self.astray
+            if log(stays * exp(self.stayed) + exp(self.put_there)) + self._at(h.here) > floor:
+                return False
+            left = lead.off if main.to == NOWHERE else lead.new + lead.off
+        return left <= 0.0 or ahead + log(left) + self._new() <= floor
+
+    def _astray_fails(self, main: Alternative, floor: float) -> bool:
+        h, action = self.h, self.sensed.action
+        if not self.astray:
+            return True
+        each = log(self.astray / h.scheme.count) + self.stayed
+        for way in range(h.scheme.count):
+            if way == action:
+                continue
+            lead = leads(h, h.here, self.walker.place, way)
+            if lead.to != NOWHERE and log(exp(each) + exp(self.put_there)) + self._at(lead.to) > floor:
+                return False
+            left = lead.new + lead.off
+            if left > 0.0 and each + log(left * self.walker.open(way)) + self._new() > floor:
+                return False
+        return True
+
+    def _moved_fails(self, main: Alternative, floor: float) -> bool:
+        if self.put_there + log(self.walker.unseen) + self._new() > floor:
+            return False
+        best = self.ways + sum(log(right) for right in self.chances.right)
+        if self.sensed.others is None and self.put_there + best <= floor:
+            return True
+        return all(
+            self.put_there + self._at(number) <= floor
+            for number in look_alikes(self.h, self.sensed)
+            if number not in (main.to, self.h.here)
+        )
+
+    def _at(self, number: int) -> float:
+        """At most log P(sensed | that place)."""
+        total, place, others = self.ways, self.h.places[number], self.sensed.others
+        for sensor, reading in enumerate(self.sensed.sights):
+            if reading is not None:
+                total += log(max(sight_probability(self.chances, sensor, place.sights[sensor], reading), LEAST))
+        return total if others is None else total + others(number)
+
+    def _new(self) -> float:
+        """At most log P(sensed | a place never seen)."""
+        total, others = self.ways, self.sensed.others
+        for sensor, reading in enumerate(self.sensed.sights):
+            if reading is not None:
+                total += log(max(new_sight_probability(self.h, sensor, reading), LEAST))
+        return total if others is None else total + others(None)
+
+    def _best_ways(self) -> float:
+        total, wrong = 0.0, self.chances.wrong
+        for reading in self.sensed.ways:
+            if reading is not None:
+                sure = max(reading, 1.0 - reading)
+                total += log(sure * (1.0 - wrong) + (1.0 - sure) * wrong)
+        return total

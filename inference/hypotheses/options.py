@@ -1,0 +1,65 @@
+"""How a tracker works, how its best hypothesis has changed, and what undoes a step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from ...model import CogmapError
+
+if TYPE_CHECKING:
+    from .hypothesis import Hypothesis
+
+
+@dataclass(frozen=True, slots=True)
+class TrackerOptions:
+    """How many hypotheses are kept.
+
+    Attributes:
+        most: at most so many.
+        least: those less probable than this, beside the most probable one, are dropped.
+        folded: hypotheses in which look-alikes are tried to be united, besides those that found a new place.
+        calm: steps that leave no doubt take a short way; the result is the same.
+
+    Raises:
+        CogmapError: a number is out of range.
+    """
+
+    most: int = 32
+    least: float = 1e-5
+    folded: int = 2
+    calm: bool = True
+
+    def __post_init__(self) -> None:
+        if not (self.most >= 1 and 0.0 < self.least < 1.0 and self.folded >= 0):
+            raise CogmapError(f"tracker: {self} cannot work; give most >= 1, 0 < least < 1, folded >= 0")
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """How the best hypothesis follows from the best one before.
+
+    Attributes:
+        kind: `extended` if it is that one and this step, so that of its records only those of `places` have changed;
+            `revised` if another one has won, or places were united or taken away, or charts joined.
+        places: numbers of the records that this step has changed or added; empty if it is `revised`.
+    """
+
+    kind: Literal["extended", "revised"]
+    places: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Checkpoint:
+    """What undoes one step of a tracker; see `Tracker.checkpoint`.
+
+    Attributes:
+        time: when it was taken.
+        hypotheses, weights: those that there were.
+        kept: the tracker's own numbers.
+    """
+
+    time: int
+    hypotheses: tuple[Hypothesis, ...]
+    weights: tuple[float, ...]
+    kept: tuple[Any, ...]

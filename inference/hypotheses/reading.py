@@ -1,0 +1,51 @@
+"""What a hypothesis says: of ways, of sights, of its rates."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from .branches import Lead, leads
+from .evidence import label_probability, probability, way_odds
+from .hypothesis import Hypothesis
+from .rates import RATE_PRIORS
+
+
+class RateOf(NamedTuple):
+    """A rate as one hypothesis has learned it.
+
+    Attributes:
+        name, meaning: what it is called, and what it is the rate of.
+        mean: what is expected of it.
+        yes, no: how often it was found true and false; soft counts are posterior probabilities.
+    """
+
+    name: str
+    meaning: str
+    mean: float
+    yes: float
+    no: float
+
+
+def open_probability(h: Hypothesis, number: int, way: int) -> float:
+    """P(a way of a place is open), by what was read on both of its sides."""
+    return probability(way_odds(h, number, h.places[number], way))
+
+
+def where_to(h: Hypothesis, number: int, way: int) -> Lead:
+    """Where a way of a place leads if it is open: to a known place, with its probability, or to one never seen."""
+    return leads(h, number, h.places[number], way)
+
+
+def label_probabilities(h: Hypothesis, number: int, *, sensor: int = 0) -> dict[int, float]:
+    """P(label) of the labels that were read in a place; those never read there share what is missing to one evenly."""
+    counts = h.places[number].sights[sensor]
+    return {label: label_probability(h.chances, sensor, counts, label) for label in counts}
+
+
+def rates_of(h: Hypothesis) -> list[RateOf]:
+    """Every rate, in the order in which they are declared."""
+    counts = h.counts
+    return [
+        RateOf(prior.name, prior.meaning, counts.mean(k), max(counts.yes[k], 0.0), max(counts.no[k], 0.0))
+        for k, prior in enumerate(RATE_PRIORS)
+    ]
