@@ -32,7 +32,7 @@ from ..model import (
 )
 from ..planning import LocalCache, Plan, Planner, Preferences
 from . import storage
-from .hypotheses import MapHypothesis, compared
+from .hypotheses import MapHypothesis
 from .mapper import Mapper
 from .packing import Arrays, pack, unpacked_state
 from .parts import made_of, parts_of
@@ -152,7 +152,7 @@ class Agent:
     @property
     def hypotheses(self) -> tuple[MapHypothesis, ...]:
         """What it holds possible of the map and of where it is in it, the most probable first; `map` is that one."""
-        return compared(self._recognition.tracker.hypotheses, self._recognition.mirror)
+        return self._recognition.compared()
 
     @property
     def learned_rates(self) -> tuple[RateOf, ...]:
@@ -376,22 +376,22 @@ class Agent:
         if state.belief is None:
             state.belief = begin(self.map, 0, percept)
             return
-        if percept.action is not None and percept.opened and self.certain:
+        if percept.action is not None and percept.opened and self._located:
             self._mapper.enter(Whereabouts(state.belief.places), percept.action, step=state.steps)
         belief = advance(self.map, state.belief.message, percept, support=self.settings.filter.support)
-        sure = belief.certainty >= self.settings.certainty
+        sure = belief.message.certainty >= self.settings.certainty
         state.belief = belief.committed() if sure and not self.map.visited[belief.place] else belief
 
     def _teach(self, percept: Percept) -> None:
         """Teach the map the step, or have it say what the most probable hypothesis says instead."""
         recognition, state, belief = self._recognition, self._state, self.belief
         self._mapper.fade()
-        if not recognition.agrees(belief):
+        if not recognition.choose(belief, certainty=self.settings.certainty):
             self._revise(percept)
             return
         state.belief = recognition.weighed(belief)
         self._remember(percept)
-        if belief.certainty < self.settings.certainty:
+        if belief.message.certainty < self.settings.certainty:
             recognition.missed()
             return
         self._mapper.learn(belief, percept, recognition.doors, step=state.steps)
@@ -426,6 +426,11 @@ class Agent:
                 ahead=belief.ahead,
             )
         )
+
+    @property
+    def _located(self) -> bool:
+        """Whether one place holds enough of the belief, if the map is right."""
+        return self.belief.message.certainty >= self.settings.certainty
 
     def _require_plan(self) -> None:
         if not self._state.steps:

@@ -18,7 +18,7 @@ class MapHypothesis:
         probability: its posterior probability.
         places: how many places were visited, if it is so.
         place: the place of the agent's map where the agent is; None for one that its map does not have.
-        differences: how it differs from the most probable one, in words.
+        differences: how it differs from the one that the map says, in words; none if it is that one.
     """
 
     probability: float
@@ -27,12 +27,12 @@ class MapHypothesis:
     differences: tuple[str, ...]
 
 
-def compared(hypotheses: Sequence[Hypothesis], mirror: Mirror) -> tuple[MapHypothesis, ...]:
-    """Every hypothesis beside the first."""
+def compared(followed: Hypothesis, hypotheses: Sequence[Hypothesis], mirror: Mirror) -> tuple[MapHypothesis, ...]:
+    """Every hypothesis beside the one that the map says."""
     found: list[MapHypothesis] = []
     for h in hypotheses:
         place = mirror.place(h)
-        differences = tuple(_differences(hypotheses[0], h, place, mirror)) if h is not hypotheses[0] else ()
+        differences = tuple(_differences(followed, h, place, mirror)) if h is not followed else ()
         found.append(MapHypothesis(exp(h.weight), h.size, place, differences))
     return tuple(found)
 

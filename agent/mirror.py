@@ -66,7 +66,7 @@ class Mirror:
         """Mass of the places of the map where the agent may be, and that of the hypotheses that have it elsewhere.
 
         Args:
-            hypotheses: with their probabilities, the most probable first.
+            hypotheses: with their probabilities, the one that the map says first.
             here: the place of the map where the first one has the agent.
         """
         best = hypotheses[0][0]
@@ -105,7 +105,7 @@ class Mirror:
             touched: the places of the hypothesis that the step has changed.
         """
         self.places[h.here] = place
-        for number in touched:
+        for number in {h.here, *touched}:
             self._records[number] = h.places[number]
 
     def follow(self, h: Hypothesis, *, step: int) -> dict[int, int] | None:
