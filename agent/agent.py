@@ -235,7 +235,7 @@ class Agent:
         state.begun, state.revised = len(self.map.changes), False
         self.map.grow_time(step=state.steps)
         percept = percept_of(values, self.map, action=state.action, open_=state.open, step=state.steps)
-        self._recognition.take_in(percept, certain="taken" in values)
+        self._recognition.take_in(percept)
         self._infer(percept)
         self._teach(percept)
         state.percept, state.acted, state.choice, self._plan = percept, False, None, None

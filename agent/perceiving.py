@@ -2,30 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from math import isfinite
 from typing import Any
 
 import numpy as np
 
-from ..model import CogmapError, GenerativeModel, Percept
+from ..model import OUTCOMES, UNSEEN, CogmapError, GenerativeModel, Outcome, Percept
 
 
 def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str, Any]:
-    """What each sensor sensed, normalised, and `taken`, the action that was really carried out, where that is said.
+    """What each sensor sensed, normalised, and what is said of the move, as `Percept` has it.
 
-    Nothing is remembered yet, so that an agent which refuses is as it was before.
+    A sensor that saw nothing is `UNSEEN`; what is not said of the move is left out. Nothing is remembered yet, so that
+    an agent which refuses is as it was before.
 
     Raises:
-        CogmapError: a key is missing, or a value is none that its sensor could have sensed.
+        CogmapError: a key is missing or unknown, or a value is none that its sensor could have sensed.
     """
     if not isinstance(observation, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance]
         kind = type(observation).__name__
         raise CogmapError(f"observation: is a {kind}; give a mapping with keys {_keys(model)}")
+    given = dict(observation)
+    if "ways" in given and "ways" not in model.sensors and "open" in model.sensors:
+        if "open" in given:
+            raise CogmapError("observation: 'open' and 'ways' are two words for one thing; give one of them")
+        given["open"] = given.pop("ways")
     for name in model.sensors:
-        if name not in observation:
+        if name not in given:
             raise CogmapError(f"observation: key {name!r} is missing; give {_keys(model)}")
-    values = {name: sensor.check(observation[name]) for name, sensor in model.sensors.items()}
-    return values | ({"taken": _action(observation["taken"], model)} if "taken" in observation else {})
+    values = {name: _sensed(sensor.check, given.pop(name)) for name, sensor in model.sensors.items()}
+    for name, value in given.items():
+        if name not in _SAID:
+            said = ", ".join(map(repr, _SAID))
+            raise CogmapError(f"observation: unknown key {name!r}; known are {_keys(model)}, and of the move {said}")
+        values[name] = _SAID[name](value, model)
+    return values
 
 
 def percept_of(
@@ -37,12 +49,31 @@ def percept_of(
         values: what was sensed.
         model: whose sensors read it.
         action: the action that was answered last; None at the first step.
-        open_: for each action whether its way was sensed open before it; None where nothing senses that.
+        open_: for each action whether its way may have been open before it; None where nothing senses that.
         step: the time step.
     """
-    action = None if action is None else values.get("taken", action)
-    readings = {name: sensor.read(values[name], step=step) for name, sensor in model.sensors.items()}
-    return Percept(action, action is not None and (open_ is None or open_[action]), readings)
+    taken = action is not None and "taken" in values
+    action = values["taken"] if taken else action
+    seen = {name: sensor for name, sensor in model.sensors.items() if values[name] is not UNSEEN}
+    outcome = values.get("outcome")
+    opened = open_ is None or action is None or open_[action]
+    if outcome in ("arrived", "blocked"):
+        opened = outcome == "arrived"
+    return Percept(
+        action=action,
+        opened=action is not None and opened,
+        readings={name: sensor.read(values[name], step=step) for name, sensor in seen.items()},
+        taken=taken,
+        outcome=outcome,
+        displacement=values.get("displacement"),
+        turn=values.get("turn"),
+        moved=values.get("moved", False),
+        cost=values.get("cost"),
+    )
+
+
+def _sensed(check: Callable[[Any], Any], value: Any) -> Any:
+    return UNSEEN if value is UNSEEN else check(value)
 
 
 def _keys(model: GenerativeModel) -> str:
@@ -57,3 +88,53 @@ def _action(taken: Any, model: GenerativeModel) -> int:
     if isinstance(taken, int | np.integer) and not isinstance(taken, bool) and 0 <= taken < len(names):
         return int(taken)
     raise CogmapError(f"observation: 'taken' is {taken!r}; give an action by name or index: {', '.join(names)}")
+
+
+def _outcome(outcome: Any, model: GenerativeModel) -> Outcome:
+    for known in OUTCOMES:
+        if isinstance(outcome, str) and outcome == known:
+            return known
+    raise CogmapError(f"observation: 'outcome' is {outcome!r}; give one of {', '.join(map(repr, OUTCOMES))}")
+
+
+def _moved(moved: Any, model: GenerativeModel) -> bool:
+    if not isinstance(moved, bool | np.bool_):
+        raise CogmapError(f"observation: 'moved' is {moved!r}; give true where the agent was moved")
+    return bool(moved)
+
+
+def _displacement(measured: Any, model: GenerativeModel) -> tuple[float, ...]:
+    size = len(model.motions.displacements[0])
+    try:
+        vector = tuple(float(each) for each in measured if each is not np.ma.masked)
+    except (TypeError, ValueError):
+        vector = ()
+    if len(vector) != size or not all(map(isfinite, vector)):
+        raise CogmapError(f"observation: 'displacement' is {_short(measured)}; give {size} finite numbers")
+    return vector
+
+
+def _number(name: str, least: float) -> Callable[[Any, GenerativeModel], float]:
+    def number(value: Any, model: GenerativeModel) -> float:
+        real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+        if not (real and value is not np.ma.masked and isfinite(value) and value >= least):
+            bound = "" if least < 0.0 else f" of {least:g} or more"
+            raise CogmapError(f"observation: {name!r} is {_short(value)}; give a finite number{bound}")
+        return float(value)
+
+    return number
+
+
+def _short(value: Any) -> str:
+    return " ".join(repr(value).split())
+
+
+_SAID: dict[str, Callable[[Any, GenerativeModel], Any]] = {
+    "taken": _action,
+    "outcome": _outcome,
+    "displacement": _displacement,
+    "turn": _number("turn", -np.inf),
+    "moved": _moved,
+    "cost": _number("cost", 0.0),
+}
+"""What an observation may say of the move besides, and what reads it."""

@@ -49,9 +49,9 @@ class Recognition:
         assert self.followed is not None
         return self.followed
 
-    def take_in(self, percept: Percept, *, certain: bool) -> None:
+    def take_in(self, percept: Percept) -> None:
         """Weigh the hypotheses by what a step brought; the map stays as it is."""
-        sensed = self.sensing.sensed(percept, certain=certain, place=self.mirror.places.get)
+        sensed = self.sensing.sensed(percept, place=self.mirror.places.get)
         self.tracker.step(sensed, self.sensing.labels())
 
     def choose(self, belief: Belief, *, certainty: float) -> bool:
@@ -93,7 +93,7 @@ class Recognition:
 
     def open(self, percept: Percept) -> tuple[bool, ...]:
         """For each action whether its way may be open now: neither sensed nor believed shut."""
-        sensed = percept.open or (True,) * len(self._map.motions)
+        sensed = percept.passable or (True,) * len(self._map.motions)
         return tuple(is_open and door is not False for is_open, door in zip(sensed, self.doors, strict=True))
 
     def compared(self) -> tuple[MapHypothesis, ...]:

@@ -38,20 +38,25 @@ class Sensing:
         """How many labels each sensor has shown."""
         return [len(sensor.labels) for sensor in self._model.sights_sensed] or [0]
 
-    def sensed(self, percept: Percept, *, certain: bool, place: Callable[[int], int | None]) -> Sensed:
+    def sensed(self, percept: Percept, *, place: Callable[[int], int | None]) -> Sensed:
         """A percept as hypotheses take it in.
 
         Args:
             percept: what the step brought.
-            certain: its action is known to have been carried out.
             place: the place of the model for a place of the hypotheses, where it has one.
         """
-        readings, open_ = percept.readings, percept.open
+        readings, open_ = percept.readings, percept.ways(len(self._model.motions))
         sights = tuple(readings.get(sensor.name) for sensor in self._model.sights_sensed) or (None,)
-        ways = tuple(None if open_ is None else float(open_[action]) for action in self.actions) or (None,)
-        action = None if percept.action is None else self._way.get(percept.action)
-        others = self._told(percept, place) if any(name in readings for name in self._others) else None
-        return Sensed(sights, ways, action, certain=certain, others=others)
+        ways = tuple(open_[action] for action in self.actions) or (None,)
+        stayed = percept.action is None or percept.outcome == "blocked"
+        return Sensed(
+            sights,
+            ways,
+            None if stayed else self._way.get(percept.action),
+            certain=percept.taken or percept.outcome == "arrived",
+            told=percept.moved,
+            others=self._told(percept, place) if any(name in readings for name in self._others) else None,
+        )
 
     def _told(self, percept: Percept, place: Callable[[int], int | None]) -> Callable[[int | None], float]:
         """What sensors of other kinds say of a place; None stands for one never seen."""

@@ -17,7 +17,7 @@ class StepRecord:
     Attributes:
         step: the time step, from 0.
         sight: label of what the sensor `sight` saw; None where there is none.
-        open: for each action, whether its way was sensed open.
+        open: for each action, whether its way was sensed open: true, false, P(open), or None; empty where none was.
         places: Q(s_t), the most probable first.
         certainty: the first of them.
         doubt: probability of the hypotheses in which it is elsewhere.
@@ -41,7 +41,7 @@ class StepRecord:
 
     step: int
     sight: Hashable
-    open: tuple[bool, ...]
+    open: tuple[bool | float | None, ...]
     places: dict[int, float]
     certainty: float
     doubt: float
@@ -71,7 +71,7 @@ class StepRecord:
 def record_of(
     step: int,
     sensed: Mapping[str, Hashable],
-    open_: tuple[bool, ...],
+    open_: tuple[bool | float | None, ...],
     belief: Belief,
     plan: Plan,
     entries: Iterable[Entry],

@@ -37,13 +37,14 @@ def known_agent(
 def depth_first(maze: Maze, start: Position) -> Iterator[tuple[int | None, Position]]:
     """A walk through all rooms and back: each action (None at the start), and the room that it leads to."""
     back: dict[Position, int] = {}
+    doors = {frozenset(door) for door in maze.doors}
     seen, track = {start}, [start]
     yield None, start
     while track:
         row, column = track[-1]
         for action, (down, right) in enumerate(GRID.displacements):
             ahead = (row + down, column + right)
-            if ahead in maze.sights and ahead not in seen:
+            if ahead not in seen and frozenset((track[-1], ahead)) in doors:
                 seen.add(ahead)
                 track.append(ahead)
                 back[ahead] = GRID.displacements.index((-down, -right))

@@ -9,8 +9,9 @@ if TYPE_CHECKING:
     from .cells import Cell, Row, run_cell, run_cells
     from .exploring import ExploreRun, exploration, explore, explore_many, frontier_steps, oracle_steps, summarise, walk
     from .goals import WEIGHT, check_goal, parse_goal
+    from .judging import BELIEVED, Trail, Verdict, judge
     from .kidnapping import KidnapRun, check_kidnap, kidnap, kidnap_many, kidnap_result
-    from .knowledge import BELIEVED, Truth
+    from .knowledge import Truth
     from .ledger import Ledger
     from .navigating import NavigateRun, navigate, navigate_many, navigate_result
     from .output import check_outputs, file_named, picture_of, unused, write_json, write_picture
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from .pool import WorkerLostError, completed, map_seeds, map_tasks, workers
     from .records import Record, mean, std
     from .running import Moment, Run, run
-    from .session import Session, default_steps, draw_start, explored
+    from .session import Session, chart_of, default_steps, draw_start, explored
     from .text import count, number, spread
 
 __all__ = [
@@ -38,8 +39,11 @@ __all__ = [
     "Row",
     "Run",
     "Session",
+    "Trail",
     "Truth",
+    "Verdict",
     "WorkerLostError",
+    "chart_of",
     "check_goal",
     "check_kidnap",
     "check_outputs",
@@ -53,6 +57,7 @@ __all__ = [
     "explored",
     "file_named",
     "frontier_steps",
+    "judge",
     "kidnap",
     "kidnap_many",
     "kidnap_result",
@@ -79,7 +84,8 @@ __all__ = [
     "write_picture",
 ]
 
-_MODULES = "text pool running output ledger records parts knowledge session goals exploring kidnapping navigating cells"
+_EARLY = "text pool running output ledger records parts judging knowledge session"
+_MODULES = f"{_EARLY} goals exploring kidnapping navigating cells"
 
 
 def __getattr__(name: str) -> Any:

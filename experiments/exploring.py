@@ -10,12 +10,14 @@ from typing import Any, Unpack
 
 import numpy as np
 
+from ..agent import Agent
 from ..baselines import FrontierAgent
 from ..worlds import Chart, Maze, Place, covering_steps, frontier_walk, place_of, world_of
+from .judging import Trail
 from .knowledge import Truth
 from .records import OPTIONAL, Record, mean, ratio, std
 from .running import Moment, Watch, run
-from .session import Many, Options, World, chart_of, described, many, set_out
+from .session import Many, Options, Session, World, chart_of, described, head_of, many, set_out
 
 EFFORT = 4_000_000  # of the oracle, search states times rooms squared: some seconds
 
@@ -33,6 +35,8 @@ class ExploreRun(Record):
         oracle_steps: of the shortest walk through all rooms; None where it is out of reach.
         seconds: of the walk, the oracle left out.
         frontier_steps: of nearest-frontier search, only where the oracle is out of reach.
+        places, map_right, known: of an agent with a map, what that map is worth at the end; see `Verdict`.
+        certain_but_wrong: share of the steps at which the agent was certain of a place that belongs to another room.
     """
 
     seed: int
@@ -43,6 +47,10 @@ class ExploreRun(Record):
     oracle_steps: int | None
     seconds: float = field(compare=False)
     frontier_steps: int | None = field(default=None, metadata=OPTIONAL)
+    places: int | None = field(default=None, metadata=OPTIONAL)
+    map_right: bool | None = field(default=None, metadata=OPTIONAL)
+    known: float | None = field(default=None, metadata=OPTIONAL)
+    certain_but_wrong: float | None = field(default=None, metadata=OPTIONAL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +94,20 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
     oracle = oracle_steps(chart_of(world), session.start)
     instead = frontier_steps(chart_of(world), session.start) if oracle is None else None
     figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
-    return Walk(ExploreRun(seed, session.start, *figures), done.truth, session.agent, session.truth)
+    return Walk(
+        ExploreRun(seed, session.start, *figures, *_worth(session, known.trail)),
+        done.truth,
+        session.agent,
+        session.truth,
+    )
+
+
+def _worth(session: Session, trail: Trail) -> tuple[Any, ...]:
+    """What the map of the agent is worth, and how often it was certain and wrong; nothing of one without a map."""
+    if not isinstance(session.agent, Agent):
+        return ()
+    worth = trail.verdict(session.agent, chart_of(session.world))
+    return worth.places, worth.map_right, round(worth.known, 6), round(trail.wrong / len(trail.rooms), 6)
 
 
 def explore(world: World, seed: int = 0, **options: Unpack[Options]) -> ExploreRun:
@@ -121,14 +142,18 @@ def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
     summary["ratio"] = ratio([run.steps_to_complete for run in done], oracle) if exact else None
     if not exact:
         summary["mean_frontier_steps"] = mean(run.frontier_steps for run in runs)
+    if any(run.map_right is not None for run in runs):
+        summary["map_right"] = sum(run.map_right is True for run in runs)
+        for name in ("places", "known", "certain_but_wrong"):
+            summary[f"mean_{name}"] = mean(getattr(run, name) for run in runs)
     return summary
 
 
 def exploration(world: World, runs: Sequence[ExploreRun], **options: Unpack[Options]) -> dict[str, Any]:
     """World, agent, settings (none for a baseline that has none), runs and summary, as plain JSON values."""
-    chart, maker, most = described("explore", world, **options)
-    head = {"world": chart.name, "agent": maker.agent, "settings": maker.to_dict(chart)}
-    return {**head, "runs": [run.to_dict() for run in runs], "summary": summarise(runs, max_steps=most)}
+    head, settings = head_of("explore", world, **options)
+    most = options.get("steps") or described("explore", world, **options)[2]
+    return {**head, **settings, "runs": [run.to_dict() for run in runs], "summary": summarise(runs, max_steps=most)}
 
 
 @lru_cache(maxsize=4096)

@@ -11,7 +11,7 @@ from ..model import CogmapError
 from ..worlds import CanDisplace, Place, offered, place_of
 from .records import Record, mean, std
 from .running import Moment
-from .session import Many, Options, Session, World, chart_of, described, many, set_out
+from .session import Many, Options, Session, World, chart_of, described, head_of, many, set_out
 
 AFTER = 20
 """Steps that a run goes on after recovery, before the map is checked."""
@@ -87,21 +87,20 @@ def kidnap_many(world: World, **options: Unpack[Many]) -> list[KidnapRun]:
 
 def kidnap_result(world: World, runs: Sequence[KidnapRun], **options: Unpack[Options]) -> dict[str, Any]:
     """World, agent, settings, runs and summary, as plain JSON values; means are over the runs that got there."""
-    chart, maker, most = described("kidnap", world, **options)
+    head, settings = head_of("kidnap", world, **options)
     steps = [run.steps_to_recover for run in runs]
     summary = {
         "runs": len(runs),
         "explored": sum(run.steps_to_explore is not None for run in runs),
         "recovered": sum(run.recovered for run in runs),
         "map_intact": sum(run.map_intact is True for run in runs),
-        "max_steps": most,
+        "max_steps": described("kidnap", world, **options)[2],
         "mean_steps_to_recover": mean(steps),
         "std_steps_to_recover": std(steps),
         "most_steps_to_recover": max((step for step in steps if step is not None), default=None),
         "mean_steps_certain_but_wrong": mean(run.steps_certain_but_wrong for run in runs),
     }
-    head = {"world": chart.name, "agent": maker.agent, "settings": maker.to_dict(chart)}
-    return {**head, "runs": [run.to_dict() for run in runs], "summary": summary}
+    return {**head, **settings, "runs": [run.to_dict() for run in runs], "summary": summary}
 
 
 def _recover(session: Session, agent: Agent) -> tuple[int | None, int]:

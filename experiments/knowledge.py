@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +11,9 @@ from numpy.typing import NDArray
 from ..agent import Agent
 from ..baselines import CscgAgent
 from ..model import CognitiveMap
-from ..worlds import Chart, Place, place_of
+from ..worlds import Chart, Maze, Place
+from .judging import BELIEVED, Trail
 from .running import Moment, Walker, Watch
-
-BELIEVED = 0.6
-"""A true transition counts as learned from this probability on."""
 
 Offset = tuple[int, ...]
 
@@ -36,10 +35,26 @@ class Truth:
 
     def __init__(self, chart: Chart, start: Place) -> None:
         self.number = {place: i for i, place in enumerate(chart.places)}
-        ahead = [[self.number[other] for other in chart.successors(place).values()] for place in chart.places]
-        self._offset = _offsets(ahead, self.number[start], chart.motions.displacements)
-        most = max(map(len, ahead))  # an action that a place has not leads back
-        self._target = np.array([[*row, *[i] * (most - len(row))] for i, row in enumerate(ahead)])  # [R, K]
+        self._chart, self._start = chart, start
+
+    @cached_property
+    def _ahead(self) -> list[list[int]]:
+        """Where each action leads from each place."""
+        successors = map(self._chart.successors, self._chart.places)
+        return [[self.number[other] for other in row.values()] for row in successors]
+
+    @cached_property
+    def _target(self) -> NDArray[np.int64]:
+        """`[R, K]` the same; an action that a place has not leads back."""
+        most = max(map(len, self._ahead))
+        return np.array([[*row, *[i] * (most - len(row))] for i, row in enumerate(self._ahead)])
+
+    @cached_property
+    def _offset(self) -> dict[int, Offset]:
+        """Where each place lies from the start, by its number; empty where the moves do not fit into a lattice."""
+        if isinstance(self._chart, Maze):  # it always does
+            return {i: (r - self._start[0], c - self._start[1]) for i, (r, c) in enumerate(self._chart.places)}
+        return _offsets(self._ahead, self.number[self._start], self._chart.motions.displacements)
 
     def place(self, map_: CognitiveMap, place: Place) -> int | None:
         """The place of a map that stands for a true one; None if there is none."""
@@ -80,7 +95,9 @@ class Truth:
 
     def known(self, edges: Mapping[tuple[Offset, int], Offset]) -> bool:
         """Whether `edges`, {(place, action): place} relative to the start, hold every true transition."""
-        return bool(self._offset) and all(
+        if len(edges) < len(self.number) or not self._offset:
+            return False
+        return all(
             edges.get((self._offset[number], action)) == self._offset[target]
             for number, row in enumerate(self._target.tolist())
             for action, target in enumerate(row)
@@ -88,6 +105,8 @@ class Truth:
 
     def _places(self, map_: CognitiveMap) -> NDArray[np.int64] | None:
         """`[R]` the place of each true one, once every one has one."""
+        if len(map_.places) < len(self.number):
+            return None
         places = [map_.place_at(self._offset[number]) for number in range(len(self._offset))]
         return None if None in places or not places else np.array(places, dtype=np.int64)
 
@@ -95,31 +114,46 @@ class Truth:
 class Knowledge:
     """Looks on at an exploration, with `watch` beside it, and ends it once everything is known.
 
+    A true place stands for the place of the map that is where its position says, or else for the one that was visited
+    there: on a torus positions say nothing, and an agent may have none.
+
     Attributes:
+        trail: where it was.
         visit_all: steps until every place had been entered, and is visited in the map of an agent that keeps one.
         learn: steps until every true transition was believed.
         complete: steps until both held at once. None of what never was, as with the others.
     """
 
-    def __init__(self, truth: Truth, watch: Watch | None = None) -> None:
-        self._truth, self._watch, self._path = truth, watch, list[int]()
-        self._left = set(truth.number.values())
+    def __init__(self, truth: Truth, chart: Chart, watch: Watch | None = None, *, on: bool = False) -> None:
+        self._truth, self._chart, self._watch, self._on = truth, chart, watch, on
+        self._path, self._left = list[int](), set(truth.number.values())
+        self.trail = Trail()
         self.visit_all: int | None = None
         self.learn: int | None = None
         self.complete: int | None = None
 
     def __call__(self, moment: Moment) -> bool:
         """Look at a choice."""
-        walker = moment.agent
-        self._path.append(self._truth.number[place_of(moment.info)])
+        self.trail(moment)
+        self._path.append(self._truth.number[self.trail.rooms[-1]])
         self._left.discard(self._path[-1])
-        visited = not self._left and (not isinstance(walker, Agent) or self._truth.visited(walker.map))
-        learned = self._truth.learned_by(walker, self._path)
-        self.visit_all = moment.step if visited and self.visit_all is None else self.visit_all
-        self.learn = moment.step if learned and self.learn is None else self.learn
-        self.complete = moment.step if visited and learned else None
+        if self.complete is None:
+            visited, learned = self._known(moment.agent)
+            self.visit_all = moment.step if visited and self.visit_all is None else self.visit_all
+            self.learn = moment.step if learned and self.learn is None else self.learn
+            self.complete = moment.step if visited and learned else None
         stop = self._watch is not None and self._watch(moment) is True
-        return stop or self.complete is not None
+        return stop or (self.complete is not None and not self._on)
+
+    def _known(self, walker: Walker) -> tuple[bool, bool]:
+        """Whether every place is visited, and whether every transition is believed."""
+        learned = self._truth.learned_by(walker, self._path)
+        if not isinstance(walker, Agent):
+            return not self._left, learned
+        if self._left or self._truth.visited(walker.map):
+            return not self._left, learned
+        right = self.trail.verdict(walker, self._chart).map_right
+        return right, learned or right
 
 
 def _offsets(ahead: Sequence[Sequence[int]], start: int, displacements: Sequence[Offset]) -> dict[int, Offset]:

@@ -11,7 +11,7 @@ from .exploring import frontier_search
 from .goals import WEIGHT, check_goal, shortest
 from .records import OPTIONAL, Record, mean, ratio
 from .running import Moment, Watch
-from .session import Many, Options, Session, World, chart_of, described, draw_start, many, set_out
+from .session import Many, Options, Session, World, chart_of, described, draw_start, head_of, many, set_out
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,8 @@ def navigate_result(world: World, runs: Sequence[NavigateRun], **options: Unpack
     The ratio is None where none reached it, and where every one of them started there but walked all the same.
     """
     goal, known, weight, closed, others = _task(options)
-    chart, maker, most = described("navigate", world, **others)
+    head, settings = head_of("navigate", world, **others)
+    most = described("navigate", world, **others)[2]
     there = [run for run in runs if run.reached]
     steps, least = [run.steps or 0 for run in there], [run.shortest or 0 for run in there]
     summary: dict[str, Any] = {"runs": len(runs), "reached": len(there), "failed": len(runs) - len(there)}
@@ -127,10 +128,10 @@ def navigate_result(world: World, runs: Sequence[NavigateRun], **options: Unpack
     if not known:
         frontier = [run.frontier_steps or 0 for run in there]
         summary |= {"total_frontier_steps": sum(frontier), "mean_frontier_steps": mean(frontier)}
-    head = {"world": chart.name, "agent": maker.agent, "goal": goal, "weight": weight, "unexplored": not known}
+    head |= {"goal": goal, "weight": weight, "unexplored": not known}
     shut = {"closed": [list(room) for room in closed]} if closed else {}
     rows = [run.to_dict() for run in runs]
-    return {**head, **shut, "settings": maker.to_dict(chart), "runs": rows, "summary": summary}
+    return {**head, **shut, **settings, "runs": rows, "summary": summary}
 
 
 def _task(options: NavigateOptions) -> tuple[Label, bool, float, Sequence[Place], Options]:

@@ -9,9 +9,9 @@ import numpy as np
 
 from ..agent import Agent, Settings
 from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
-from ..model import GROWTHS, CogmapError, StaticGrowth
+from ..model import GROWTHS, POSES, CogmapError, Pose, StaticGrowth
 from ..planning import CHOICES, POLICIES, MapGuided, Planner
-from ..worlds import Chart, HasChart, World, offered
+from ..worlds import Chart, HasChart, Motions, World, offered
 
 CSCG = {
     "cscg": (False, "viterbi"),
@@ -53,6 +53,7 @@ class Parts:
         growth: one of `GROWTHS`; static growth is told how many places the world has.
         policies: one of `POLICIES`.
         choice: one of `CHOICES`.
+        pose: one of `POSES`; a lattice unless given, and none in worlds whose actions have no displacements.
         cscg: of the clone-structured graphs.
 
     Raises:
@@ -64,20 +65,21 @@ class Parts:
     growth: str = "predicted"
     policies: str = "map_guided"
     choice: str = "outward"
+    pose: str | None = None
     cscg: CscgSettings = field(default_factory=CscgSettings)
 
     def __post_init__(self) -> None:
         if self.agent not in AGENTS:
             raise CogmapError(f"no agent is called {self.agent!r}; choose one of {', '.join(AGENTS)}")
-        for name, known in (("growth", GROWTHS), ("policies", POLICIES), ("choice", CHOICES)):
-            if (value := getattr(self, name)) not in known:
+        for name, known in (("growth", GROWTHS), ("policies", POLICIES), ("choice", CHOICES), ("pose", POSES)):
+            if (value := getattr(self, name)) is not None and value not in known:
                 raise CogmapError(f"settings: {name} is {value!r}; choose one of {', '.join(known)}")
 
     @classmethod
-    def named(cls, agent: str = "cogmap", *, growth: str = "predicted", **options: Any) -> Self:
-        """From the options of the command line: growth, policies, look_ahead, engine."""
-        policies = options.pop("policies", "map_guided")
-        return cls(agent, Settings(**options), growth=growth, policies=policies)
+    def named(cls, agent: str = "cogmap", **options: Any) -> Self:
+        """From the options of the command line: names of parts, look_ahead, engine."""
+        numbers = {name: options.pop(name) for name in ("look_ahead", "engine") if name in options}
+        return cls(agent, Settings(**numbers), **options)
 
     def growing(self, growth: str) -> Self:
         """The same with another growth."""
@@ -97,13 +99,26 @@ class Parts:
             growth = StaticGrowth(len(chart.places)) if self.growth == StaticGrowth.name else GROWTHS[self.growth]()
             planner = Planner(policies=POLICIES[self.policies](), choice=CHOICES[self.choice]())
             number = int(seed.generate_state(1)[0])
-            return Agent(motions, growth=growth, planner=planner, settings=self.settings, seed=number)
+            return Agent(
+                motions, pose=self._pose(motions), growth=growth, planner=planner, settings=self.settings, seed=number
+            )
         if self.agent in CSCG:
             positions, how = CSCG[self.agent]
             seen = len(chart.places if positions else set(chart.sights.values()))
             told: dict[str, Any] = {"observations": seen, "positions": positions, "navigation": how}
             return CscgAgent(motions, settings=self.cscg, seed=seed, **told)
+        if not motions.displacements:
+            raise CogmapError(f"agent {self.agent} reckons where it is, and these actions have no displacements")
         return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
+
+    def _pose(self, motions: Motions) -> Pose | None:
+        """The pose that was asked for; a lattice only where actions have displacements."""
+        if self.pose == "lattice" and not motions.displacements:
+            raise CogmapError(
+                "pose lattice needs actions with displacements; declare graph.motions, or use --pose none"
+            )
+        name = self.pose or (None if motions.displacements else "none")
+        return None if name is None else POSES[name]()
 
     def to_dict(self, chart: Chart | None = None) -> dict[str, Any]:
         """What the agent goes by, as plain JSON values; nothing for a baseline that has no settings."""
@@ -111,5 +126,6 @@ class Parts:
             return self.cscg.to_dict() if self.agent in CSCG else {}
         places = len(chart.places) if chart is not None and self.growth == StaticGrowth.name else None
         names = {"policies": self.policies, "beam": MapGuided().beam, "choice": self.choice, "growth": self.growth}
-        values = {**self.settings.to_dict(), **names, "places": places}
+        pose = {} if self.pose is None else {"pose": self.pose}
+        values = {**self.settings.to_dict(), **names, **pose, "places": places}
         return {name: values[name] for name in dict.fromkeys((*_FIRST, *values))}

@@ -67,6 +67,8 @@ _KINDS: dict[Any, tuple[str, tuple[type, ...]]] = {
     int: ("a whole number", (int,)),
     int | None: ("a whole number or null", (int, type(None))),
     float: ("a number", (int, float)),
+    float | None: ("a number or null", (int, float, type(None))),
+    bool | None: ("true, false or null", (bool, type(None))),
     Place: ("a room", (int, str)),  # or a pair of whole numbers
 }
 

@@ -33,11 +33,13 @@ class Options(TypedDict, total=False):
         agent: a name in `AGENTS`, or what makes agents: see `Parts`; `cogmap` unless given.
         settings: of the agent `cogmap` given by name.
         max_steps: moves after which to give up exploring, and again what follows; `default_steps(world)` unless given.
+        steps: moves that an exploration takes, whatever is known by then; unless given, it ends when all is known.
     """
 
     agent: str | Maker
     settings: Settings | None
     max_steps: int | None
+    steps: int | None
 
 
 class Many(Options, total=False):
@@ -60,6 +62,7 @@ class Session:
         rng: draws what happens to it later.
         most: moves after which it gives up.
         seed: of the world.
+        fixed: moves that it takes exploring, if that is settled.
         steps: in which it explored the world; None where it has not, or gave up.
         truth: to compare its map with.
     """
@@ -70,6 +73,7 @@ class Session:
     rng: np.random.Generator
     most: int
     seed: int
+    fixed: int | None = None
     steps: int | None = field(init=False, default=None)
     truth: Truth = field(init=False)
     _seen: Seen = field(init=False)
@@ -97,9 +101,9 @@ class Session:
         return done
 
     def explore(self, watch: Watch | None = None) -> tuple[Run, Knowledge]:
-        """Go on until every place was visited and every transition is believed, for `most` moves at most."""
-        knowledge = Knowledge(self.truth, watch)
-        done = self.run(self.most + 1, knowledge)
+        """Go on until all is known, for `most` moves at most; or for `fixed` moves, whatever is known by then."""
+        knowledge = Knowledge(self.truth, chart_of(self.world), watch, on=self.fixed is not None)
+        done = self.run((self.fixed or self.most) + 1, knowledge)
         self.steps = knowledge.complete
         return done, knowledge
 
@@ -123,7 +127,7 @@ def set_out(experiment: str, world: World, seed: int, **options: Unpack[Options]
     start, for_agent, rng = draw_start(experiment, world, seed)
     for_world = np.random.SeedSequence(seed).spawn(4)[3].generate_state(1)[0]  # `draw_start` uses the first three
     own = world_of(chart) if world is chart else deepcopy(world, {id(chart): chart})  # a chart never changes
-    return Session(own, maker.make(own, for_agent), start, rng, most, int(for_world))
+    return Session(own, maker.make(own, for_agent), start, rng, most, int(for_world), options.get("steps"))
 
 
 def explored(experiment: str, world: World, seed: int, **options: Unpack[Options]) -> Session:
@@ -139,9 +143,18 @@ def described(experiment: str, world: World, **options: Unpack[Options]) -> tupl
     if settings is not None and not isinstance(agent, str):
         raise CogmapError(f"agent {agent.agent} has settings of its own; leave the argument settings out")
     most = default_steps(world) if most is None else most
-    if most < 1:
-        raise CogmapError(f"{experiment}: max_steps is {most}; use 1 or more")
+    for name, moves in (("max_steps", most), ("steps", options.get("steps"))):
+        if moves is not None and moves < 1:
+            raise CogmapError(f"{experiment}: {name} is {moves}; use 1 or more")
     return chart_of(world), Parts(agent, settings or Settings()) if isinstance(agent, str) else agent, most
+
+
+def head_of(experiment: str, world: World, **options: Unpack[Options]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """What stands at the head of results: the world, its noise if it has any, the agent; and its settings."""
+    chart, maker, _ = described(experiment, world, **options)
+    noise: dict[str, float] = getattr(world, "noise", {})
+    head = {"world": chart.name, **({"noise": noise} if noise else {}), "agent": maker.agent}
+    return head, {"settings": maker.to_dict(chart)}
 
 
 def many(experiment: Callable[..., _Row], world: World, options: Mapping[str, Any]) -> list[_Row]:

@@ -99,7 +99,7 @@ def begin(model: GenerativeModel, place: int, percept: Percept) -> Belief:
     """The belief of an agent that knows to be in `place`, after its first evidence."""
     here = np.array([place])
     prior = _Candidates.seen(model, percept, here, model.pose.of(here), np.ones(1), np.zeros(1, dtype=np.int64))
-    return _update(model, None, prior, None, support=0.0)
+    return _update(model, None, prior, None, support=0.0, displacement=0.0)
 
 
 def advance(model: GenerativeModel, message: Message, percept: Percept, *, support: float = 1e-3) -> Belief:
@@ -110,17 +110,19 @@ def advance(model: GenerativeModel, message: Message, percept: Percept, *, suppo
     stays = model.pose.stays(percept.action, opened=percept.opened)
     ahead = model.transitions.predict(places, percept.action, percept, stays=stays)
     walked = _walk(model, message, percept, ahead.of(pair))
-    displacement = _probability(model)
+    displacement = _probability(model, percept)
     share = float(walked.joint.sum()) * np.exp(walked.scale)
     if displacement <= support * share:  # even a perfect match elsewhere would be dropped
-        return _update(model, message, walked, None, support=support, ahead=ahead)
+        return _update(model, message, walked, None, support=support, displacement=displacement, ahead=ahead)
     displaced, left_out = _displaced(model, walked, percept, support)
-    return _update(model, message, walked, displaced, support=support, left_out=left_out, ahead=ahead)
+    return _update(
+        model, message, walked, displaced, support=support, displacement=displacement, left_out=left_out, ahead=ahead
+    )
 
 
 def _walk(model: GenerativeModel, message: Message, percept: Percept, ahead: Successors) -> _Candidates:
     """Where the action leads: each successor with each pose that it may have then."""
-    p = ahead.probability * (message.mass[:, None] * (1.0 - _probability(model)))
+    p = ahead.probability * (message.mass[:, None] * (1.0 - _probability(model, percept)))
     source, slot = np.nonzero((ahead.places >= 0) & (p > 0.0))
     places, p, coupling = ahead.places[source, slot], p[source, slot], ahead.coupling[source, slot]
     poses = model.pose.predict(message.positions, percept.action or 0, opened=percept.opened)
@@ -147,20 +149,20 @@ def _displaced(
         places = np.union1d(found[0], entered)
         some = _put_into(model, places, percept)
         best = max(float(part.joint.max(initial=0.0)) * np.exp(part.scale) for part in (walked, some))
-        each = found[1] * _probability(model) / len(visited)
+        each = found[1] * _probability(model, percept) / len(visited)
         if each < min(support, PRUNED) * best:
             return some, each * (len(visited) - len(places))
     return _put_into(model, visited, percept), 0.0
 
 
-def _probability(model: GenerativeModel) -> float:
-    return 0.0 if model.displacement is None else model.displacement.probability
+def _probability(model: GenerativeModel, percept: Percept) -> float:
+    return 0.0 if model.displacement is None else model.displacement.prior(percept)
 
 
 def _put_into(model: GenerativeModel, places: Ints, percept: Percept) -> _Candidates:
     """These of the visited places, with their poses, all alike."""
     positions, p = model.pose.spread(places)
-    weight = p * (_probability(model) / max(len(model.visits.order), 1))
+    weight = p * (_probability(model, percept) / max(len(model.visits.order), 1))
     row, slot = np.nonzero(weight > 0.0)
     nowhere = np.full(len(row), -1)
     return _Candidates.seen(model, percept, places[row], positions[row, slot], weight[row, slot], nowhere)
@@ -173,6 +175,7 @@ def _update(
     displaced: _Candidates | None,
     *,
     support: float,
+    displacement: float,
     left_out: float = 0.0,
     ahead: Successors | None = None,
 ) -> Belief:
@@ -195,7 +198,7 @@ def _update(
     walked_mass = np.where(kept[pair[:count]], walked.scaled(all_.scale).joint, 0.0) / z
     unexamined = 0.0
     if displaced is None and message is not None:
-        unexamined = _probability(model) / (_probability(model) + np.exp(evidence))
+        unexamined = displacement / (displacement + np.exp(evidence))
     return Belief(
         message=Message(pair_places[kept], pair_positions[kept], joint[kept] / z),
         evidence=evidence,

@@ -77,10 +77,11 @@ from .map_state import map_state, restore_map
 from .map_tables import counts_of, map_table
 from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
-from .percept import Percept
+from .percept import OUTCOMES, Outcome, Percept
 from .periods import Periods, reduced, with_period
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .slices import Slice, take_slice, window_graph
+from .unseen import UNSEEN, Unseen
 from .updates import ParameterUpdate, updates
 
 __all__ = [
@@ -91,12 +92,14 @@ __all__ = [
     "KINDS",
     "LEAST",
     "OPEN",
+    "OUTCOMES",
     "POSES",
     "SENSORS",
     "STEPS",
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
+    "UNSEEN",
     "AllEvidence",
     "Before",
     "Branch",
@@ -128,6 +131,7 @@ __all__ = [
     "Motions",
     "NoPose",
     "ObservedGrowth",
+    "Outcome",
     "ParameterUpdate",
     "Percept",
     "Periods",
@@ -148,6 +152,7 @@ __all__ = [
     "Table",
     "Template",
     "Transition",
+    "Unseen",
     "Variable",
     "Ways",
     "Whereabouts",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,9 @@ from .plan import Plan, policy_posterior
 from .policies import MapGuided, PolicyGenerator
 from .rollout import evaluate
 from .terms import KINDS, TERMS, Term
+
+LAST = 0.01
+"""Weight that the last step of a plan has at least, however long it is: what is far is worth setting out for."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,6 +125,7 @@ class Planner:
 
     def _decide(self, model: LocalModel, precision: float, rng: np.random.Generator) -> Plan:
         policies = self.policies.make(model)
+        model = _in_sight(model, policies.actions.shape[1])
         energy = evaluate(model, policies, self.terms)
         G = energy.G
         probability = policy_posterior(G, precision=precision)
@@ -130,3 +134,11 @@ class Planner:
         return Plan(
             model, policies.actions, energy, probability, chosen, action, policies.cut, self.policies, self.choice
         )
+
+
+def _in_sight(model: LocalModel, length: int) -> LocalModel:
+    """The model with a discount that leaves something of the last step of plans that go beyond the look-ahead."""
+    if length <= model.look_ahead:
+        return model
+    last = min(model.discount**model.look_ahead, LAST)
+    return replace(model, discount=max(model.discount, last ** (1.0 / length)))

@@ -12,6 +12,8 @@ from cogmap.worlds.generate import random_maze
 from parts import agent_with
 from walks import assert_agent_is_sound
 
+from cogmap import UNSEEN
+
 WALKS, BATCHES, STEPS = 200, 10, 18
 
 
@@ -48,7 +50,7 @@ def lied(seen: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
     """Now and then a sight or the doors are not what they are."""
     chance = rng.random()
     if chance < 0.1:
-        return {**seen, "sight": [0, 1, None, "never", int(rng.integers(1 << 20))][int(rng.integers(5))]}
+        return {**seen, "sight": [0, 1, UNSEEN, "never", int(rng.integers(1 << 20))][int(rng.integers(5))]}
     if chance < 0.2:
         return {**seen, "open": [*(rng.random(4) < 0.5).tolist(), True]}
     return seen

@@ -17,6 +17,8 @@ from cogmap.experiments import BELIEVED, Session, Truth, explored
 from cogmap.worlds import MAZES, Maze, MazeEnv, covering_walk
 from walks import GRID, assert_agent_is_sound
 
+from cogmap import UNSEEN
+
 Observation = dict[str, Any]
 Lie = Callable[[Session, int, np.random.Generator], Observation]
 
@@ -33,8 +35,8 @@ def wrong_sight(session: Session, step: int, rng: np.random.Generator) -> Observ
     return {**seen, "sight": others[int(rng.integers(len(others)))]}
 
 
-def none_to_see(session: Session, step: int, rng: np.random.Generator) -> Observation:
-    return {**session.world.observe(), "sight": None}
+def nothing_to_see(session: Session, step: int, rng: np.random.Generator) -> Observation:
+    return {**session.world.observe(), "sight": UNSEEN}
 
 
 def new_sight_each_step(session: Session, step: int, rng: np.random.Generator) -> Observation:
@@ -137,7 +139,7 @@ def sights_are_right(session: Session) -> bool:
 # most that 5 mazes x 10 seeds took
 CASES = [
     (wrong_sight, 10, 10, 60),
-    (none_to_see, 10, 2, 20),
+    (nothing_to_see, 10, 2, 20),
     (new_sight_each_step, 10, 2, 20),
     (moved_every_three_steps, 15, 2, 2),
     (flickering_door, 20, 2, 60),

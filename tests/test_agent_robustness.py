@@ -17,6 +17,8 @@ from hypothesis import strategies as st
 from parts import agent_with
 from walks import GRID, STAY, assert_agent_is_sound, walk
 
+from cogmap import UNSEEN
+
 options = st.fixed_dictionaries(
     {
         "look_ahead": st.integers(1, 3),
@@ -86,8 +88,8 @@ def new_sight_each_step(step: int, seen: dict[str, Any], rng: np.random.Generato
     return {**seen, "sight": ("new", step)}
 
 
-def none_to_see(step: int, seen: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
-    return {**seen, "sight": None}
+def nothing_to_see(step: int, seen: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
+    return {**seen, "sight": UNSEEN}
 
 
 def ten_wrong_sights(step: int, seen: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
@@ -112,7 +114,7 @@ def nothing_right(step: int, seen: dict[str, Any], rng: np.random.Generator) -> 
 
 SPOILS: list[Spoil] = [
     new_sight_each_step,
-    none_to_see,
+    nothing_to_see,
     ten_wrong_sights,
     flickering_doors,
     doors_open_everywhere,

@@ -18,11 +18,13 @@ from cogmap.worlds import MazeEnv, load_world
 from parts import agent_with
 from walks import GRID, assert_agent_is_sound, assert_same_belief, assert_same_map, walk, walked
 
+from cogmap import UNSEEN
+
 LABELS: dict[str, Callable[[int], Hashable]] = {
     "int": lambda sight: sight,
     "str": lambda sight: f"room \u00e9\u2603 {sight}\n",
     "tuple": lambda sight: ("room", (sight, None), 0.1 + sight, True),
-    "None": lambda sight: None if sight == 0 else sight,
+    "unseen": lambda sight: UNSEEN if sight == 0 else sight,
     "float": lambda sight: sight / 3.0,
 }
 
@@ -54,7 +56,7 @@ CASES = [
     ("3x3_alias", {"certainty": 0.99}, "int"),
     ("4x4_alias", {"choice": "sampled", "engine": "gtsam", "certainty": 0.99}, "str"),
     ("t_maze_alias", {"forgetting": 0.01, "certainty": 0.99}, "tuple"),
-    ("donut", {"policies": "self_avoiding", "window": 3}, "None"),
+    ("donut", {"policies": "self_avoiding", "window": 3}, "unseen"),
     ("3x3_alias", {"growth": "observed"}, "float"),
     ("3x3_alias", {"growth": "static", "places": 80}, "str"),
 ]
@@ -298,7 +300,7 @@ def test_damaged_headers_never_raise_anything_else(wrong: Any, saved: Path, tmp_
 # -- saving ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("label", [frozenset({1}), b"bytes", 1j, ("a", frozenset()), float("inf"), ("a", float("nan"))])
+@pytest.mark.parametrize("label", [frozenset({1}), b"bytes", 1j, ("a", frozenset()), float("inf")])
 def test_labels_that_cannot_be_written(label: Hashable, tmp_path: Path) -> None:
     agent = Agent(GRID, seed=0)
     agent.step({"sight": label, "open": [True] * 5})

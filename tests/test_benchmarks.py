@@ -26,6 +26,16 @@ def measured(name: str, tmp_path: Path, *arguments: str) -> tuple[str, dict[str,
     return done.stdout, json.loads(file.read_text())
 
 
+def test_detours_are_walked_around_shut_doors(tmp_path: Path) -> None:
+    asked = ("--worlds", "donut", "t_maze", "random", "--look-ahead", "2", "6", "--ways", "2")
+    printed, result = measured("detours.py", tmp_path, *asked)
+    assert "t_maze         no door can be done without" in printed
+    assert [(row["world"], row["look_ahead"], row["ways"], row["never"]) for row in result["rows"]] == [
+        (world, look_ahead, 2, 0) for world in ("donut", "random") for look_ahead in (2, 6)
+    ]
+    assert max(row["worst"] for row in result["rows"]) <= 1.05
+
+
 def test_step_time(tmp_path: Path) -> None:
     asked = ("3x3", "--steps", "3", "--runs", "2", "--look-ahead", "2", "--policies", "map_guided", "l_shaped")
     printed, result = measured("step_time.py", tmp_path, *asked)

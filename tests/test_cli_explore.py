@@ -47,6 +47,73 @@ def test_labels_are_not_markup() -> None:
     assert result.stderr == ""
 
 
+def test_noise_and_steps() -> None:
+    noise = [
+        word for kind in ("sight=0.1", "door=.05", "slip=0.1", "fail=.1", "moved=0.2") for word in ("--noise", kind)
+    ]
+    result = cogmap("explore", "3x3", *noise, "--steps", 30, "--json", "x.json")
+    assert result.exit_code == 0
+    assert "certain but wrong" in result.stdout
+    saved = json.loads(Path("x.json").read_text())
+    assert saved["noise"] == {"sight": 0.1, "door": 0.05, "slip": 0.1, "fail": 0.1, "moved": 0.2}
+    assert {"places", "map_right", "known", "certain_but_wrong"} <= saved["runs"][0].keys()
+    assert cogmap("kidnap", "3x3", "--noise", "slip=0.01", "--runs", 1, "--json", "k.json").exit_code == 0
+    assert json.loads(Path("k.json").read_text())["noise"] == {"slip": 0.01}
+    cogmap("navigate", "3x3", "--goal", 3, "--noise", "slip=0.01", "--runs", 1, "--json", "n.json")
+    assert json.loads(Path("n.json").read_text())["noise"] == {"slip": 0.01}
+
+
+def test_sights_and_formats_of_files() -> None:
+    Path("ways.json").write_text(
+        json.dumps(
+            {
+                "directed": True,
+                "graph": {"motions": {"left": [0, -1], "right": [0, 1]}},
+                "nodes": [{"id": i} for i in range(4)],
+                "edges": [{"source": i, "target": i + 1, "way": "right"} for i in range(3)]
+                + [{"source": i + 1, "target": i, "way": "left"} for i in range(3)],
+            }
+        )
+    )
+    for sights, different in (("distinct", 4), ("ways", 2), ("1", 1)):
+        result = cogmap("explore", "ways.json", "--sights", sights)
+        assert result.exit_code == 0
+        assert f"{different} sight" in result.stdout
+    Path("walls.txt").write_text("####\n#..#\n####\n")
+    assert cogmap("explore", "walls.txt").exit_code == 2
+    assert "2 rooms" in cogmap("explore", "walls.txt", "--format", "ascii").stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["3x3", "--noise", "sight"], "'sight' is no kind with a rate"),
+        (["3x3", "--noise", "sight=much"], "'sight=much' is no kind with a rate"),
+        (["3x3", "--noise", "frob=0.1"], "unknown noise 'frob'"),
+        (["3x3", "--noise", "slip=1.5"], "noise 'slip' is 1.5"),
+        (["3x3", "--noise", "slip=-1"], "noise 'slip' is -1.0"),
+        (["3x3", "--noise", "slip=nan"], "noise 'slip' is nan"),
+        (["3x3", "--noise", "slip=.1", "--noise", "slip=.2"], "slip is given twice"),
+        (["3x3", "--pose", "sphere"], "pose is 'sphere'"),
+        (["3x3", "--steps", 0], "--steps"),
+        (["3x3", "--steps", 5, "--max-steps", 5], "give one of them"),
+        (["bare.json"], "sight"),
+        (["bare.json", "--sights", "many"], "many"),
+        (["bare.json", "--sights", "0"], "0"),
+        (["bare.json", "--sights", "distinct", "--agent", "frontier"], "reckons"),
+        (["maze.txt", "--format", "morse"], "unknown format 'morse'"),
+    ],
+)
+def test_bad_noise_poses_sights_and_formats(arguments: list[object], message: str) -> None:
+    ends = [{"source": a, "target": b} for a, b in ((0, 1), (1, 0))]
+    Path("bare.json").write_text(json.dumps({"directed": True, "nodes": [{"id": 0}, {"id": 1}], "edges": ends}))
+    Path("maze.txt").write_text("0 1\n")
+    result = cogmap("explore", *arguments, "--runs", 1)
+    assert result.exit_code == 2
+    assert result.stderr.count("\n") == 1
+    assert message in result.stderr
+
+
 def test_a_walk_that_does_not_complete_says_so() -> None:
     result = cogmap("explore", "3x3", "--max-steps", 2)
     assert result.exit_code == 1

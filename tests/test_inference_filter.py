@@ -90,6 +90,23 @@ def random_readings(map_: CognitiveMap, rng: np.random.Generator) -> dict[str, A
     return readings | ({"open": (*(rng.random(4) < 0.5).tolist(), True)} if "open" in map_.sensors else {})
 
 
+def random_percept(map_: CognitiveMap, rng: np.random.Generator, action: int) -> Percept:
+    """With readings that are sure, likelihoods, or missing, and what is said of the move."""
+    sure, readings = random_readings(map_, rng), {}
+    for name, reading in sure.items():
+        kind = rng.integers(4)
+        if kind == 0:  # nothing was seen
+            continue
+        readings[name] = reading
+        if kind == 1 and name == "open":
+            readings[name] = (*(None if rng.random() < 0.4 else float(rng.random()) for _ in range(4)), True)
+        elif kind == 1:
+            readings[name] = {int(label): float(rng.random()) for label in rng.permutation(3)[: rng.integers(2, 4)]}
+    outcome = [None, None, "arrived", "blocked", "unsure"][int(rng.integers(5))]
+    opened, moved = bool(rng.random() < 0.5), map_.displacement is not None and bool(rng.random() < 0.1)
+    return Percept(action, opened, readings, outcome=outcome, moved=moved)  # type: ignore[arg-type]
+
+
 def brute_force(map_: CognitiveMap, q: np.ndarray, percept: Percept, slip: float) -> tuple[np.ndarray, np.ndarray]:
     """Unnormalised joint [s', p', s, p, moved] with and without evidence, over every place and position."""
     S, P, a = len(map_.places), max(len(map_.positions), 1), percept.action
@@ -98,10 +115,13 @@ def brute_force(map_: CognitiveMap, q: np.ndarray, percept: Percept, slip: float
     A_p = map_.positions_given_places()[:-1] if lattice else np.ones((1, S))
     like = np.ones(S)
     for sight in map_.sights_sensed:
-        like *= sight.table.dense(3)[percept.readings[sight.name]]
+        reading = percept.readings.get(sight.name, {0: 1.0, 1: 1.0, 2: 1.0, 3: 1.0})
+        told = reading if isinstance(reading, dict) else {reading: 1.0}
+        like *= sum(p * sight.table.dense(3)[label] for label, p in told.items())
     blocked = map_.blocked(np.arange(S))
-    if percept.open is not None:
-        like *= np.where(percept.open, 1.0 - blocked, blocked)[:, :4].prod(axis=1)
+    for way, is_open in enumerate((percept.open or ())[:4]):
+        if is_open is not None:
+            like *= is_open * (1.0 - blocked[:, way]) + (1.0 - is_open) * blocked[:, way]
     moves = 1.0 - slip if percept.opened else slip
     moves = 1.0 if a == map_.motions.stay else moves
     B_p = np.zeros((P, P)) if lattice else np.ones((1, 1))
@@ -112,11 +132,18 @@ def brute_force(map_: CognitiveMap, q: np.ndarray, percept: Percept, slip: float
         B_p[p, p] += 1.0 - moves
     joint = np.zeros((S, P, S, P, 2))
     d = map_.displacement.probability if map_.displacement else 0.0
+    d = 1.0 if percept.moved else d
     joint[..., 0] = (1.0 - d) * np.einsum("ij,kl,ki,jl->ikjl", B[:, :, a], B_p, A_p, q)
     arrival = map_.visited / map_.visited.sum()
     joint[..., 1] = d * np.einsum("i,ki,jl->ikjl", arrival, A_p, q)
     predicted = joint.copy()
-    if percept.open is not None and not percept.open[a]:  # not having got through and sensing it shut are one event
+    if percept.outcome in ("arrived", "blocked") and a != map_.motions.stay:
+        stayed = np.eye(S, dtype=bool)
+        wrong = ~stayed if percept.outcome == "blocked" else stayed
+        joint[..., 0] *= np.where(wrong, map_.priors.door_floor, 1.0)[:, None, :, None]
+    if (
+        percept.open is not None and percept.open[a] is False
+    ):  # not having got through and sensing it shut are one event
         stays = 1.0 - moves if lattice else 1.0
         for s in range(S):
             joint[s, :, s, :, 0] /= blocked[s, a] * max(B[s, s, a], stays) or 1.0
@@ -167,7 +194,7 @@ def test_the_filter_is_the_two_slice_graph_is_brute_force(seed: int, action: int
     mass = rng.dirichlet(np.ones(len(held)))
     q = np.zeros((S, P))
     q[held, poses] = mass
-    percept = Percept(action, bool(rng.random() < 0.5), random_readings(map_, rng))
+    percept = random_percept(map_, rng, action)
     joint, predicted = brute_force(map_, q, percept, factors["slip"])
     z = joint.sum()
     belief = advance(map_, Message(held, poses, mass), percept, support=0.0)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cogmap.agent import Settings
-from cogmap.model import CogmapError, CognitiveMap
+from cogmap.model import CogmapError, CognitiveMap, Motions
 from cogmap.planning import (
     LocalCache,
     LocalModel,
@@ -89,7 +89,7 @@ def test_a_sight_never_met_is_no_reason_to_search_a_map_that_is_known() -> None:
     for hoped in ({-1: 5.0}, {7: 5.0}):
         model = model_of(map_, 20, Preferences(sights=hoped), Asked(map_, 3))
         assert rooms_of(model) == list(range(17, 24))
-        assert sorted(asked) == ([] if -1 in hoped else list(range(50)))
+        assert sorted(asked) == ([] if -1 in hoped else [room for room in range(50) if room != 20])
 
 
 def test_a_cache_that_does_not_fit_and_no_start_at_all_are_refused() -> None:
@@ -109,9 +109,46 @@ def test_a_cache_that_does_not_fit_and_no_start_at_all_are_refused() -> None:
     np.testing.assert_array_equal(longer.information["sight"], plain.information["sight"])
 
 
-def test_what_is_near_is_taken_before_what_is_far() -> None:
+@pytest.mark.parametrize(("worth", "rooms"), [(0.5, 24), (50.0, 41)])
+def test_what_is_near_hides_only_what_is_worth_no_more(worth: float, rooms: int) -> None:
     map_ = corridor(50, unvisited=22)
-    assert rooms_of(model_of(map_, 20, Preferences(places={40: 5.0}))) == list(range(17, 24))
+    assert rooms_of(model_of(map_, 20, Preferences(places={40: worth}))) == list(range(17, rooms))
+
+
+def test_a_goal_within_look_ahead_behind_a_shut_door_does_not_hide_the_way_round() -> None:
+    ring = CognitiveMap(Motions(("on", "back", "stay"), ((1,), (-1,), (0,))))
+    for room in range(12):
+        ring.new_place((room,), step=0)
+        ring.mark_visited(room)
+    for room in range(12):
+        ring.B_s.add(ring.row(room, 0), (room + 1) % 12, 30.0)
+        ring.B_s.add(ring.row(room, 1), (room - 1) % 12, 30.0)
+    plan = Planner().plan(
+        ring,
+        np.array([0]),
+        np.ones(1),
+        open_=(False, True, True),
+        look_ahead=4,
+        rng=np.random.default_rng(0),
+        preferences=Preferences(places={2: 3.0}),
+    )
+    assert plan.names == ["back"] * 10
+    assert plan.places[:-1].tolist() == list(range(12))
+
+
+def test_a_goal_hundreds_of_steps_away_is_set_out_for() -> None:
+    map_ = corridor(700)
+    plan = Planner().plan(
+        map_,
+        np.array([20]),
+        np.ones(1),
+        open_=OPEN,
+        look_ahead=3,
+        rng=np.random.default_rng(0),
+        preferences=Preferences(places={620: 2.0}),
+        discount=0.95,
+    )
+    assert plan.names == ["on"] * 600
 
 
 def test_a_shut_door_is_no_way_to_a_promising_place() -> None:

@@ -13,7 +13,7 @@ import pytest
 from charts import row
 from cogmap.agent import Agent, Settings
 from cogmap.inference import infer
-from cogmap.model import CogmapError, decode, encode
+from cogmap.model import CogmapError, Sight, Ways, decode, encode
 from cogmap.views import Recorder, Recording
 from cogmap.worlds import load_world
 from recordings import close_elsewhere, eventful, eventful_walk, kidnaps, outline, probabilities, recorded
@@ -143,7 +143,7 @@ def test_packed_files_are_small(recording: Recording, tmp_path: Path) -> None:
 def test_any_label_that_json_can_hold() -> None:
     labels = ["word", "</script>", 7, 2.5, None, True, ("a", ("b", 1)), "\u2028"]
     agent, recorder = (
-        Agent(GRID, settings=Settings(look_ahead=2), seed=0),
+        Agent(GRID, sensors=[Sight(labels=labels), Ways()], settings=Settings(look_ahead=2), seed=0),
         Recorder(row(*labels)),
     )
     for label in labels:

@@ -179,6 +179,11 @@ class Recorder:
         self.recording().save(path)
 
 
+def _way(reading: bool | float | None) -> float | None:
+    """1, 0, P(open), or None where a way was not looked at."""
+    return None if reading is None else int(reading) if reading in (0, 1) else round(reading, DIGITS)
+
+
 def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
     """What was sensed, grown and believed."""
     grown = [event for event in record.grown if event.kind != "time"]
@@ -186,7 +191,7 @@ def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
     return {
         "step": record.step,
         "seen": {sensor: encode(label) for sensor, label in record.sensed.items()},
-        **({"open": [int(is_open) for is_open in record.open]} if record.open else {}),
+        **({"open": [_way(is_open) for is_open in record.open]} if record.open else {}),
         "grown": [[event.kind, event.index, event.source, event.action] for event in grown],
         "retracted": record.retracted,
         "belief": places,

@@ -70,7 +70,7 @@ def _frame(data: dict[str, Any], frame: dict[str, Any], places: int) -> Shape:
         "places": [(place, _or_none([_number]), _any, _or_none(_below(len(data["sights"]))), _number)],
         "ways": [_way(place, action, _below(len(data["known"])))],
     }
-    optional = {"open": (_below(2),) * actions, "at": at, "closed_rooms": [at], "closed_doors": [(at, at)]}
+    optional = {"open": (_or_none(_share),) * actions, "at": at, "closed_rooms": [at], "closed_doors": [(at, at)]}
     return {
         **dict.fromkeys(("step", "rest", *NUMBERS), _number),
         **{name: shape for name, shape in optional.items() if name in frame},
@@ -126,6 +126,10 @@ def _or_none(shape: Shape) -> Fits:
 def _way(place: Fits, action: Fits, known: Fits) -> Fits:
     """Where one action leads: a place, the action, how that is known, and pairs of a place and a probability."""
     return lambda row: len(row) % 2 == 1 and _fits(row, (place, action, known, *(place, _number) * (len(row) // 2 - 1)))
+
+
+def _share(value: Any) -> bool:
+    return _number(value) and 0.0 <= value <= 1.0
 
 
 def _below(size: int, *, least: int = 0) -> Fits:

@@ -9,7 +9,22 @@ import typer
 from rich.markup import escape
 
 from ..text import number, say, say_saved, seeds_of, show_table, spread
-from .options import Agent, Dask, Jobs, LookAhead, Policies, Runs, Seed, Trace, World
+from .options import (
+    Agent,
+    Dask,
+    Format,
+    Jobs,
+    LookAhead,
+    Noise,
+    Policies,
+    Pose,
+    Runs,
+    Seed,
+    Sights,
+    Trace,
+    World,
+    world_of,
+)
 from .progress import counting, progress
 
 if TYPE_CHECKING:
@@ -18,6 +33,7 @@ if TYPE_CHECKING:
     from ..exploring import Walk
 
 MaxSteps = Annotated[int | None, typer.Option(min=1, help="Give up after so many; 50 a room + 50 unless given.")]
+Steps = Annotated[int | None, typer.Option(min=1, help="Walk on for so many, whatever is complete by then.")]
 Growth = Annotated[
     str, typer.Option(metavar="NAME", help="predicted, observed, static; several with commas, or all (cogmap only).")
 ]
@@ -42,6 +58,11 @@ def explore_command(
     seed: Seed = 0,
     look_ahead: LookAhead = 6,
     max_steps: MaxSteps = None,
+    steps: Steps = None,
+    noise: Noise = None,
+    sights: Sights = None,
+    format: Format = "text",
+    pose: Pose = None,
     policies: Policies = "map_guided",
     growth: Growth = "predicted",
     engine: Engine = "numpy",
@@ -56,11 +77,11 @@ def explore_command(
 
     Exit code 0, or 1 where the one walk (without --runs) did not complete.
     """
-    from ...model import GROWTHS
+    from ...model import GROWTHS, CogmapError
     from ...views import explore_figure
-    from ...worlds import load_world
     from .. import (
         Parts,
+        chart_of,
         check_outputs,
         exploration,
         explore_many,
@@ -72,12 +93,15 @@ def explore_command(
     )
     from .walk_text import show_walk
 
-    place = load_world(world)
+    place = world_of(world, noise=noise, sights=sights, format=format, seed=seed)
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
-    options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine}
+    options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine, "pose": pose}
     every = [Parts.named(agent, growth=name, **options) for name in names]
-    sweep, chart = runs is not None or len(every) > 1, place.chart
+    sweep, chart = runs is not None or len(every) > 1, chart_of(place)
     _check(agent, len(every), save, trace, out, dask=dask is not None and not sweep)
+    if steps is not None and max_steps is not None:
+        raise CogmapError("--steps walks on whatever is complete, and --max-steps gives up; give one of them")
+    walked: Any = {"max_steps": max_steps, "steps": steps}
     picture = out if sweep or out is not None else unused(file_named(chart.name, ".png"))
     check_outputs([json, save, trace, picture], inputs=[world], picture=picture)
     results: list[dict[str, Any]] = []
@@ -86,13 +110,13 @@ def explore_command(
         with workers(jobs=jobs, dask=dask) as executor, counting(f"exploring {chart.name}", total) as one_more:
             where: Any = {"runs": runs or 1, "seed": seed, "executor": executor, "on_done": one_more}
             for parts in every:
-                made = explore_many(place, agent=parts, max_steps=max_steps, **where)
-                results.append(exploration(place, made, agent=parts, max_steps=max_steps))
+                made = explore_many(place, agent=parts, **walked, **where)
+                results.append(exploration(place, made, agent=parts, **walked))
         _show_sweeps(results)
-    done = None if sweep and not (save or trace or picture) else _walk(place, chart, seed, every[0], max_steps, trace)
+    done = None if sweep and not (save or trace or picture) else _walk(place, chart, seed, every[0], walked, trace)
     if done is not None and not sweep:
         show_walk(chart, done, agent=agent)
-        results = [exploration(place, [done.run], agent=every[0], max_steps=max_steps)]
+        results = [exploration(place, [done.run], agent=every[0], **walked)]
     if json is not None:
         write_json(json, results[0] if len(results) == 1 else results)
     if done is not None and save is not None:
@@ -103,7 +127,7 @@ def explore_command(
             title = f"{chart.name}, {agent}, seed {seed}"
             picture = write_picture(picture, explore_figure(chart, done.path, title=title, **known), new=out is None)
     say_saved(runs=json, agent=save, trace=trace, picture=picture)
-    if done is not None and not sweep and not done.finished:
+    if done is not None and not sweep and not done.finished and steps is None:
         say(f"Not complete after {len(done.path) - 1} steps; allow more with --max-steps.", style="bold red")
         raise typer.Exit(NOT_COMPLETE)
 
@@ -123,7 +147,7 @@ def _check(agent: str, growths: int, save: Path | None, trace: Path | None, out:
         raise CogmapError("--dask is for sweeps; give --runs as well, or leave --dask out")
 
 
-def _walk(place: Any, chart: Chart, seed: int, parts: Parts, max_steps: int | None, trace: Path | None) -> Walk:
+def _walk(place: Any, chart: Chart, seed: int, parts: Parts, walked: Any, trace: Path | None) -> Walk:
     """Walk once, and record it."""
     from ...worlds import place_of
     from .. import walk
@@ -137,7 +161,7 @@ def _walk(place: Any, chart: Chart, seed: int, parts: Parts, max_steps: int | No
             report(len(entered))
             tracing(moment)
 
-        done = walk(place, seed, agent=parts, max_steps=max_steps, watch=watch)
+        done = walk(place, seed, agent=parts, watch=watch, **walked)
     tracing.save()
     return done
 

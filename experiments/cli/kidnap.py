@@ -7,7 +7,22 @@ from typing import Any
 import typer
 
 from ..text import count, number, place_text, say, say_saved, seeds_of, spread
-from .options import Dask, Jobs, Json, LookAhead, MaxStepsTwice, Policies, Runs, Seed, World
+from .options import (
+    Dask,
+    Format,
+    Jobs,
+    Json,
+    LookAhead,
+    MaxStepsTwice,
+    Noise,
+    Policies,
+    Pose,
+    Runs,
+    Seed,
+    Sights,
+    World,
+    world_of,
+)
 from .progress import counting
 
 
@@ -20,20 +35,23 @@ def kidnap_command(
     policies: Policies = "map_guided",
     jobs: Jobs = 1,
     dask: Dask = None,
+    noise: Noise = None,
+    sights: Sights = None,
+    format: Format = "text",
+    pose: Pose = None,
     json: Json = None,
 ) -> None:
     """Explore a maze, then be moved to another room without a word: how soon does the agent know where it is?
 
     Exit code 0, or 1 where the one run (without --runs) did not recover.
     """
-    from ...worlds import load_world
-    from .. import Parts, check_kidnap, check_outputs, kidnap_many, kidnap_result, workers, write_json
+    from .. import Parts, chart_of, check_kidnap, check_outputs, kidnap_many, kidnap_result, workers, write_json
 
-    place = load_world(world)
-    options: Any = {"agent": Parts.named(policies=policies, look_ahead=look_ahead), "max_steps": max_steps}
+    place = world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    options: Any = {"agent": Parts.named(policies=policies, look_ahead=look_ahead, pose=pose), "max_steps": max_steps}
     check_kidnap(place)
     check_outputs([json], inputs=[world])
-    name, many = place.chart.name, runs or 1
+    name, many = chart_of(place).name, runs or 1
     with workers(jobs=jobs, dask=dask) as executor, counting(f"kidnapping in {name}", many) as one_more:
         done = kidnap_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)
     result = kidnap_result(place, done, **options)

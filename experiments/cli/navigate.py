@@ -7,7 +7,24 @@ from typing import Annotated, Any
 import typer
 
 from ..text import count, number, place_text, say, say_saved, seeds_of
-from .options import Agent, Dask, Jobs, Json, LookAhead, MaxStepsTwice, Policies, Runs, Seed, Trace, World
+from .options import (
+    Agent,
+    Dask,
+    Format,
+    Jobs,
+    Json,
+    LookAhead,
+    MaxStepsTwice,
+    Noise,
+    Policies,
+    Pose,
+    Runs,
+    Seed,
+    Sights,
+    Trace,
+    World,
+    world_of,
+)
 from .progress import counting
 
 Goal = Annotated[str, typer.Option(metavar="LABEL", help="The label to go to; the agent is there when it stays.")]
@@ -33,6 +50,10 @@ def navigate_command(
     close: Close = None,
     jobs: Jobs = 1,
     dask: Dask = None,
+    noise: Noise = None,
+    sights: Sights = None,
+    format: Format = "text",
+    pose: Pose = None,
     json: Json = None,
     trace: Trace = None,
 ) -> None:
@@ -40,9 +61,9 @@ def navigate_command(
 
     Exit code 0, or 1 where the one run (without --runs) did not reach it.
     """
-    from ...worlds import load_world
     from .. import (
         Parts,
+        chart_of,
         check_goal,
         check_outputs,
         navigate,
@@ -55,12 +76,12 @@ def navigate_command(
     from .tracing import Tracing, check_trace
 
     check_trace(agent, trace)
-    place = load_world(world)
-    label, name, many = parse_goal(place, goal), place.chart.name, runs or 1
+    place = world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    label, name, many = parse_goal(place, goal), chart_of(place).name, runs or 1
     task: Any = {"weight": weight, "closed": [_room(text) for text in close or ()], "known": not unexplored}
     check_goal(place, label, **task)
     check_outputs([json, trace], inputs=[world])
-    parts = Parts.named(agent, policies=policies, look_ahead=look_ahead)
+    parts = Parts.named(agent, policies=policies, look_ahead=look_ahead, pose=pose)
     options: Any = {"goal": label, "agent": parts, "max_steps": max_steps, **task}
     with workers(jobs=jobs, dask=dask) as executor, counting(f"navigating in {name}", many) as one_more:
         done = navigate_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)
@@ -69,7 +90,7 @@ def navigate_command(
     if json is not None:
         write_json(json, result)
     if trace is not None:
-        tracing = Tracing(trace, place.chart, title=f"{name}, goal {label}, seed {seed}", goals=(label,))
+        tracing = Tracing(trace, chart_of(place), title=f"{name}, goal {label}, seed {seed}", goals=(label,))
         navigate(place, seed, watch=tracing, **options)
         tracing.save()
     say_saved(runs=json, trace=trace)

@@ -2,12 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 World = Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, or a maze or graph file.")]
+Sights = Annotated[
+    str | None,
+    typer.Option(
+        metavar="KIND", help="For places without a sight: distinct, ways (how many there are), or K at random."
+    ),
+]
+Format = Annotated[str, typer.Option(metavar="NAME", help="Of a maze file: text, commas or ascii.")]
+Noise = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="KIND=RATE",
+        help="What goes wrong, how often: sight, door, slip, fail or moved (odometry, heading: by how much). Several.",
+    ),
+]
+Pose = Annotated[
+    str | None,
+    typer.Option(metavar="NAME", help="How places lie to each other: lattice, or none (cogmap only). By the world."),
+]
 Agent = Annotated[
     str,
     typer.Option(metavar="NAME", help="cogmap, frontier, random, cscg, cscg_pose, cscg_random or cscg_pose_random."),
@@ -36,3 +55,29 @@ Trace = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="Record the walk (of a sweep, its first) for `cogmap replay`; .gz packs it."),
 ]
+
+
+def world_of(name: str, *, noise: Sequence[str] | None, sights: str | None, format: str, seed: int) -> Any:
+    """The world of these options."""
+    from ...worlds import NoisyWorld, load_world
+
+    rates = _rates(noise or ())
+    given: Any = int(sights) if sights is not None and sights.isascii() and sights.isdecimal() else sights
+    world = load_world(name, format=format, sights=given, seed=seed)
+    return NoisyWorld(world, **rates) if rates else world
+
+
+def _rates(noise: Sequence[str]) -> dict[str, float]:
+    from ...model import CogmapError
+
+    rates: dict[str, float] = {}
+    for text in noise:
+        kind, _, rate = text.partition("=")
+        try:
+            value = float(rate)
+        except ValueError:
+            raise CogmapError(f"noise: {text!r} is no kind with a rate; give KIND=RATE, such as sight=0.1") from None
+        if kind in rates:
+            raise CogmapError(f"noise: {kind} is given twice; give one rate")
+        rates[kind] = value
+    return rates

@@ -16,8 +16,8 @@ from rich.text import Text
 from ...agent import Agent
 from ...views import hexed, ink_on, sight_colour
 from ...worlds import Chart, Maze, Place
-from ..exploring import Walk
-from ..knowledge import BELIEVED
+from ..exploring import ExploreRun, Walk
+from ..judging import BELIEVED
 from ..text import count, show_facts
 from .inspect_facts import ways_known
 
@@ -89,7 +89,8 @@ def _cell(maze: Maze, room: Place, first: dict[Place, int], width: int, line: in
 
 def _path(chart: Chart, path: Sequence[Place], *, unicode: bool) -> Text:
     def sign(a: Place, b: Place) -> str:
-        move = "stay" if a == b else next(str(way) for way, place in chart.successors(a).items() if place == b)
+        ways = (str(way) for way, place in chart.successors(a).items() if place == b)
+        move = "stay" if a == b else next(ways, "!")  # put elsewhere
         return _ARROWS.get(move, f"{move} ") if unicode else move[0]
 
     signs = "".join(sign(a, b) for a, b in pairwise(path[: MOST_MOVES + 1]))
@@ -104,8 +105,19 @@ def _learned(walk: Walk, agent: Agent) -> dict[str, str]:
     return {
         "map": f"{places}, {count(len(map_.sights), 'sight')}",
         "transitions": ", ".join(known),
+        "beside the truth": _worth(walk.run),
         "least believed transition": f"{walk.truth.least(map_):.3f} (learned from {BELIEVED})",
     }
+
+
+def _worth(run: ExploreRun) -> str:
+    parts = (
+        count(run.places or 0, "place"),
+        f"map {'right' if run.map_right else 'not right'}",
+        f"{run.known or 0.0:.0%} of all transitions known",
+        f"certain but wrong in {run.certain_but_wrong or 0.0:.1%} of the steps",
+    )
+    return ", ".join(parts)
 
 
 def _energies(agent: Agent, to: Console) -> dict[str, Text]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..errors import CogmapError
+from ..percept import Percept
 from .base import Floats, Ints, ModelFactor, Support, Table
 
 
@@ -32,6 +33,10 @@ class Displacement(ModelFactor):
         """P(moved_t)."""
         return {"probability": self.probability}
 
+    def prior(self, percept: Percept) -> float:
+        """P(moved_t), or one where the agent is told that it was."""
+        return 1.0 if percept.moved else self.probability
+
     def arrival(self, places: Ints) -> Floats:
         """`[n]` P(s_t | moved_t)."""
         visits = self.context.visits
@@ -40,5 +45,6 @@ class Displacement(ModelFactor):
     def tables(self, support: Support) -> Iterable[Table]:
         """P(moved_t): zero where the filter did not look, since it would have dropped all of it."""
         if support.before is not None:
-            p = np.array([1.0 - self.probability, self.probability * support.examined])
+            moved = self.prior(support.percept)
+            p = np.array([1.0 - moved, moved * support.examined])
             yield Table("M", (f"moved{support.step}",), p, "displacement", "P(moved_t)")

@@ -11,7 +11,8 @@ from ..errors import CogmapError
 from .base import Context, Floats, Ints, ModelFactor, Support, Table
 from .transition import Transition
 
-_TAKEN = frozenset({"s", "p", "o", "c", "Q", "M", "moved", "places", "visits", "transition", "pose", "displacement"})
+_OF_THE_MOVE = ("moved", "taken", "outcome", "displacement", "turn", "cost")
+_TAKEN = frozenset({"s", "p", "o", "c", "Q", "M", "places", "visits", "transition", "pose", *_OF_THE_MOVE})
 
 
 class Sensor(ModelFactor):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
-from typing import Any
+from collections.abc import Hashable, Iterable, Mapping
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +16,13 @@ from ..growth_event import GrowthEvent
 from ..information import information
 from ..labels import decode, encode
 from .base import Context, Floats, Ints, parts_of
+from .readings import Likelihoods, checked_label, checked_likelihoods, declared
 from .sensor import Sensor
 from .sight_index import SightIndex
 from .transition import Transition
+
+Reading = int | Mapping[int, float]
+"""The number of a label, or likelihoods of labels by number, the largest 1."""
 
 
 class Sight(Sensor):
@@ -28,22 +32,27 @@ class Sight(Sensor):
         name: the key in observations.
         prior: concentration of each label before any evidence, `Priors.sight` unless given: how noisy it is. After one
             look the probability of another label is about this.
+        labels: those that are known beforehand; others are met as they come. `None` is a label only where it is
+            declared here.
 
     Attributes:
         labels: those met so far, by number.
         table: counts, a row a place.
 
     Raises:
-        CogmapError: the prior is no positive number.
+        CogmapError: the prior is no positive number, or a label cannot be one.
     """
 
-    def __init__(self, name: str = "sight", *, prior: float | None = None) -> None:
+    def __init__(
+        self, name: str = "sight", *, prior: float | None = None, labels: Iterable[Hashable] | None = None
+    ) -> None:
         super().__init__(name)
         if prior is not None and not (isinstance(prior, float | int) and 0.0 < prior < 1e300):  # pyright: ignore[reportUnnecessaryIsInstance]
             raise CogmapError(f"{name}: prior is {prior!r}; use a number above 0")
         if name == "sight":
             self.symbol, self.variable = "A_o", "o"
         self._prior = prior
+        self._declared = declared(labels, name)
 
     @property
     def options(self) -> dict[str, Any]:
@@ -53,10 +62,11 @@ class Sight(Sensor):
     def join(self, context: Context, transitions: Transition) -> None:
         """Make it part of a model."""
         super().join(context, transitions)
-        self.labels = Domain("sights" if self.name == "sight" else self.name)
+        self.labels = Domain("sights" if self.name == "sight" else self.name, self._declared)
         background = context.priors.sight if self._prior is None else self._prior
+        outcomes = len(self.labels) + 1  # and one never met
         self.table = SparseDirichlet(
-            name=self.symbol, slots=1, background=background, outcomes=1, changes=context.changes
+            name=self.symbol, slots=1, background=background, outcomes=outcomes, changes=context.changes
         )
         self._index = SightIndex(self.table, context.changes, context.visits)
 
@@ -80,54 +90,69 @@ class Sight(Sensor):
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=len(self.labels))
 
-    def check(self, value: Any) -> Hashable:
-        """The label, as a plain hashable value."""
-        scalar = isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0)
-        label: Any = value.item() if scalar else value
-        try:
-            hash(label)
-        except TypeError as error:
-            raise CogmapError(
-                f"observation: {self.name} is a {type(value).__name__}, not hashable; "
-                "label sights with str, int or tuple"
-            ) from error
-        if label != label:  # a NaN would be a new sight each time
-            raise CogmapError(f"observation: {self.name} is NaN, which equals nothing; label with str, int or tuple")
-        return label
+    def check(self, value: Any) -> Any:
+        """The label, as a plain hashable value, or `Likelihoods` of labels."""
+        if isinstance(value, Mapping):
+            return checked_likelihoods(cast(Mapping[Any, Any], value), self.name, self.labels)
+        return checked_label(value, self.name, self.labels)
 
-    def read(self, checked: Hashable, *, step: int) -> int:
-        """The number of the label; the domain grows where it was never met."""
-        known = self.labels.find(checked)
+    def read(self, checked: Any, *, step: int) -> Reading:
+        """The number of the label, or likelihoods by number; the domain grows where a label was never met."""
+        if isinstance(checked, Likelihoods):
+            return {self._number(label, step): likelihood for label, likelihood in checked.of.items()}
+        return self._number(checked, step)
+
+    def _number(self, label: Hashable, step: int) -> int:
+        known = self.labels.find(label)
         if known is not None:
             return known
-        number = self.labels.add(checked)
+        number = self.labels.add(label)
         self.table.outcomes = len(self.labels) + 1  # and one never met
-        self.context.grown(GrowthEvent(step, "sight", number, checked, sensor=self.name))
+        self.context.grown(GrowthEvent(step, "sight", number, label, sensor=self.name))
         return number
 
-    def label(self, reading: int) -> Hashable:
-        """The label of that number."""
+    def label(self, reading: Reading) -> Hashable:
+        """The label of that number; of likelihoods each label with its own, the most likely first."""
+        if isinstance(reading, Mapping):
+            ranked = sorted(reading.items(), key=lambda item: (-item[1], item[0]))
+            return tuple((self.labels[number], likelihood) for number, likelihood in ranked)
         return self.labels[reading]
 
-    def log_likelihood(self, places: Ints, reading: int) -> Floats:
+    def log_likelihood(self, places: Ints, reading: Reading) -> Floats:
         """`[n]` log P(o | s)."""
-        return np.log(self.table.probability(reading, places))
+        return np.log(self.likelihood(places, reading))
 
-    def likelihood(self, places: Ints, reading: int) -> Floats:
-        """`[n]` P(o | s)."""
+    def likelihood(self, places: Ints, reading: Reading) -> Floats:
+        """`[n]` P(o | s): of likelihoods their mean over the labels that the place may show."""
+        if isinstance(reading, Mapping):
+            each = [likelihood * self.table.probability(label, places) for label, likelihood in reading.items()]
+            return np.add.reduce(each)
         return self.table.probability(reading, places)
 
-    def log_predictive(self, reading: int) -> float:
+    def log_predictive(self, reading: Reading) -> float:
         """Any label is as likely as any other, one never met among them."""
-        return -float(np.log(self.table.outcomes))
+        told = sum(reading.values()) if isinstance(reading, Mapping) else 1.0
+        return float(np.log(told / self.table.outcomes))
 
-    def candidates(self, reading: int) -> tuple[Ints, float]:
+    def candidates(self, reading: Reading) -> tuple[Ints, float]:
         """The visited places that have counts for it, or hardly any, and a bound on its probability elsewhere."""
-        return self._index.places(reading)
+        if not isinstance(reading, Mapping):
+            return self._index.places(reading)
+        found = {label: self._index.places(label) for label in reading}
+        bound = sum(likelihood * found[label][1] for label, likelihood in reading.items())
+        return np.unique(np.concatenate([places for places, _ in found.values()])), bound
 
-    def learn(self, place: int, reading: int, weight: float) -> None:
-        """Its count gains `weight` times the rate."""
-        self.table.add(place, reading, weight * self.context.rates.likelihood)
+    def learn(self, place: int, reading: Reading, weight: float) -> None:
+        """Its count gains `weight` times the rate; of likelihoods each label its posterior share of that."""
+        gain = weight * self.context.rates.likelihood
+        if not isinstance(reading, Mapping):
+            self.table.add(place, reading, gain)
+            return
+        here = np.array([place])
+        share = {label: p * self.table.probability(label, here).item() for label, p in reading.items()}
+        total = sum(share.values())
+        for label, part in share.items():
+            self.table.add(place, label, gain * part / total)
 
     def information(self, places: Ints, steps: int) -> Floats:
         """`[n, N + 1]` nats that 0..N more looks teach of the column of each place."""

@@ -107,7 +107,7 @@ class Transition(ModelFactor):
 
         Who did not get through a door, and now senses it shut, has one thing to explain, not three: that the place is
         the same, that the pose is, and that the door is shut. The less probable of the first two stays, the others are
-        taken out again.
+        taken out again. What the body says of the outcome is wrong as rarely as a door is believed otherwise.
 
         Args:
             places: `[n]` s.
@@ -117,9 +117,12 @@ class Transition(ModelFactor):
         """
         keys, p, _ = self.table.mean(places * len(self.motions) + action)
         coupling = np.ones(keys.shape)
-        if percept.open is not None and not percept.open[action]:
+        if percept.shut(action):
             others = self.blocked(places)[:, action, None] * np.maximum(p, stays)
             np.divide(1.0, others, out=coupling, where=(keys == places[:, None]) & (others > 0.0))
+        if percept.outcome in ("arrived", "blocked") and action != self.motions.stay:
+            believed = (keys == places[:, None]) == (percept.outcome == "blocked")
+            coupling[~believed] *= self.context.priors.door_floor
         return Successors(keys, p, coupling)
 
     def information(self, places: Ints, steps: int) -> Floats:
@@ -189,6 +192,10 @@ class Transition(ModelFactor):
         """Have counts of `level` at least."""
         have = self.table.evidence(self.row(previous, action), next_)
         self.add(next_, previous, action, max(level - have, 0.0))
+
+    def level(self, next_: int, previous: int, action: int, level: float) -> None:
+        """Have counts of `level`, no more and no less."""
+        self.add(next_, previous, action, level - self.table.evidence(self.row(previous, action), next_))
 
     def add(self, next_: int, previous: int, action: int, amount: float) -> None:
         """Add counts, up to the ceiling."""

@@ -8,14 +8,21 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import CogmapError
+from ..unseen import UNSEEN
 from .base import Context, Floats, Ints
+from .readings import WayReading, checked_ways
 from .sensor import Sensor
-from .transition import BLOCKED, OPEN, UNKNOWN, Transition
+from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
+
+Looks = Sequence[WayReading]
+"""A reading an action."""
 
 
 class Ways(Sensor):
-    """Senses of each action whether its way is open: `open` in observations, one truth value an action.
+    """Senses of each action whether its way is open: `open` in observations.
+
+    That is one reading an action, in a list, an array (masked where not looked at) or a mapping by name: true, false,
+    P(open), or None where it was not looked at.
 
     c(s) = product over the actions of P(blocked | s, a), or one minus it; P(blocked | s, a) is B_s[s, s, a].
     """
@@ -36,49 +43,49 @@ class Ways(Sensor):
         super().join(context, transitions)
         self._transitions, self._motions, self._rates = transitions, context.motions, context.rates
 
-    def check(self, value: Any) -> tuple[bool, ...]:
-        """One truth value an action; staying is always open."""
-        try:
-            doors = np.asarray(value)
-        except ValueError as error:
-            raise CogmapError(
-                "observation: 'open' holds lists of different lengths; give one truth value an action"
-            ) from error
-        if doors.shape != (len(self._motions),):
-            names = ", ".join(self._motions.names)
-            raise CogmapError(f"observation: 'open' has shape {doors.shape}; give one truth value an action: {names}")
-        if doors.dtype != np.bool_ and not (np.issubdtype(doors.dtype, np.integer) and set(doors.tolist()) <= {0, 1}):
-            raise CogmapError(f"observation: 'open' holds {doors.dtype}; give truth values")
-        return tuple(bool(is_open) or action == self._motions.stay for action, is_open in enumerate(doors.tolist()))
+    def check(self, value: Any) -> Any:
+        """A reading an action, staying always open; `UNSEEN` where no way was looked at."""
+        ways = checked_ways(value, self._motions)
+        return UNSEEN if ways is None else ways
 
-    def log_likelihood(self, places: Ints, reading: Sequence[bool]) -> Floats:
+    def log_likelihood(self, places: Ints, reading: Looks) -> Floats:
         """`[n]` log P(doors as sensed | s)."""
         return np.log(self._each(places, reading)).sum(axis=1)
 
-    def likelihood(self, places: Ints, reading: Sequence[bool]) -> Floats:
+    def likelihood(self, places: Ints, reading: Looks) -> Floats:
         """`[n]` P(doors as sensed | s)."""
         return np.multiply.reduce(self._each(places, reading), axis=1)
 
-    def _each(self, places: Ints, reading: Sequence[bool]) -> Floats:
-        """`[n, K]` of each door by itself."""
+    def _each(self, places: Ints, reading: Looks) -> Floats:
+        """`[n, K]` of each door by itself: r P(open) + (1 - r) P(blocked); one where it was not looked at."""
         p = self._transitions.blocked(places)
-        np.subtract(1.0, p, out=p, where=np.array(reading, dtype=np.bool_))
+        np.subtract(1.0, p, out=p, where=np.array([way == 1 for way in reading]))
+        for action, way in enumerate(reading):
+            if way is None:
+                p[:, action] = 1.0
+            elif 0.0 < way < 1.0:
+                p[:, action] = way * (1.0 - p[:, action]) + (1.0 - way) * p[:, action]
         p[:, self._motions.stay] = 1.0
         return p
 
-    def log_predictive(self, reading: Sequence[bool]) -> float:
+    def log_predictive(self, reading: Looks) -> float:
         """A way is as likely open as not."""
-        return (len(self._motions) - 1) * log(0.5)
+        return (sum(way is not None for way in reading) - 1) * log(0.5)
 
-    def learn(self, place: int, reading: Sequence[bool | None], weight: float) -> None:
+    def learn(self, place: int, reading: Looks, weight: float) -> None:
         """What is sensed of the doors of `place`.
 
         Each look leaves the counts of one look at least, and takes the contrary away: many looks say no more than one,
-        and what has faded comes back. The other side of a door learns of it when it changes.
+        and what has faded comes back. The other side of a door learns of it when it changes. A look that is not sure
+        leaves the counts of one look, shared by what is then believed.
         """
-        for action, is_open in enumerate(reading):
-            if action == self._motions.stay or is_open is None:
+        for action, way in enumerate(reading):
+            if action == self._motions.stay or way is None:
                 continue
+            if 0.0 < way < 1.0:
+                self._weigh(place, action, weight, way)
+                continue
+            is_open = way == 1
             before = int(self._transitions.sensed.values[place, action])
             if before == (OPEN if is_open else BLOCKED) and self._settled(place, action, weight, is_open=is_open):
                 continue
@@ -86,6 +93,16 @@ class Ways(Sensor):
                 self._open(place, action, weight, before)
             else:
                 self._transitions.shut(place, action, weight, changed=before != BLOCKED)
+
+    def _weigh(self, place: int, action: int, weight: float, way: float) -> None:
+        """Share the counts of one look between open and blocked, as is believed after a reading P(open) = `way`."""
+        ways = self._transitions
+        blocked = ways.blocked(np.array([place]))[0, action]
+        is_open = way * (1.0 - blocked) / (way * (1.0 - blocked) + (1.0 - way) * blocked)
+        beyond, counts = ways.beyond(place, action), self._rates.imagined[0] * weight
+        ways.level(place, place, action, counts * (1.0 - is_open))
+        ways.level(ELSEWHERE if beyond is None else beyond, place, action, counts * is_open)
+        ways.sensed.set((place, action), BLOCKED if is_open < 0.5 else UNKNOWN if beyond is None else OPEN)
 
     def recall(self, place: int) -> None:
         """Teach a new place what its neighbours' doors have shown of it already: those that are blocked."""

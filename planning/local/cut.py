@@ -23,8 +23,10 @@ class Surroundings:
         map: the map.
         cache: of its places.
         starts: where the agent may be.
-        near: all places within look-ahead of these, ascending.
+        near: all places within look-ahead of these, however improbable the way, ascending.
         preferences: what is hoped for.
+        open: for each action, whether its way is sensed open now.
+        look_ahead: steps that policies look ahead.
     """
 
     map: MapView
@@ -32,6 +34,14 @@ class Surroundings:
     starts: Ints
     near: Ints
     preferences: Preferences
+    open: Sequence[bool]
+    look_ahead: int
+
+    def sensed(self) -> Ints:
+        """`[n, K]` where each action most probably leads to from the starts, as sensed now; see `LocalCache.likely`."""
+        rows = self.cache.rows(self.starts)
+        _sense(rows, self.starts, np.arange(len(self.starts)), self.open)
+        return rows.likely[:-1]
 
 
 def nothing_beyond(around: Surroundings) -> Ints:
@@ -70,7 +80,7 @@ def local_model(
     preferences = preferences or Preferences()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
     near = cache.within(places, look_ahead)
-    far = beyond(Surroundings(map_, cache, places, near, preferences))
+    far = beyond(Surroundings(map_, cache, places, near, preferences, open_, look_ahead))
     within = np.union1d(near, far) if len(far) else near
     at, local = within.searchsorted(places), np.append(within, ELSEWHERE)
     q = np.zeros(len(local))

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from ...model import CogmapError, Motions
 from ..local import LocalModel, Surroundings
 from .base import MAX_POLICIES, Ints, Policies, PolicyGenerator, padded
-from .far_ways import far_ways
+from .far_ways import MORE, far_ways
 
 Floats = NDArray[np.float64]
 LEAST = 1e-3  # nats; a first visit that is worth less is worth nothing
 SHARE = 0.1  # nor is one below this share of the greatest value in the model
-GREAT = 0.5  # share of the greatest value that a start must have within look-ahead, or it looks beyond
+GREAT = 0.5  # share of the greatest value in reach that a start must have within look-ahead, or it looks beyond
 HYPOTHESES = 8  # places that the agent may be at, at most
 HYPOTHESIS = 0.05  # and the belief each needs
 BEYOND = 4  # places of great value to head for when none is within look-ahead
@@ -43,7 +43,8 @@ class MapGuided(PolicyGenerator):
     - Of what is left, each level keeps the `beam` best by value, then by how early it was collected.
     - Beside each place the best prefix may end with one step through a way that the map knows nothing of.
     - If a start has no place of great value within `look_ahead`, the shortest paths to the nearest places
-      beyond that have one are added, so L may exceed `look_ahead`.
+      beyond that have one are added, so L may exceed `look_ahead`; and always those to the nearest places beyond that
+      are worth more than all that is nearer.
 
     `Policies.cut` is the number of prefixes that the beam dropped.
 
@@ -68,11 +69,11 @@ class MapGuided(PolicyGenerator):
         paths: list[Path] = []
         cut = 0
         for start in starts:
-            grown, dropped, found = _grow(skeleton, start, model.look_ahead, beam)
+            grown, dropped, best = _grow(skeleton, start, model.look_ahead, beam)
             paths += grown
             cut += dropped
-            if not found:
-                paths += _beyond(skeleton, start)
+            if MORE * best < skeleton.greatest:
+                paths += _beyond(skeleton, start, best)
         return Policies(padded(paths, stay=model.motions.stay, length=model.look_ahead), cut)
 
     def count(self, motions: Motions, look_ahead: int) -> int:
@@ -100,8 +101,8 @@ class _Skeleton:
     """The map as lists, which are quicker than arrays one element at a time.
 
     `ways[i]` holds (action, place it leads to, risk in nats), `unknown[i]` actions that lead nobody knows
-    where, `bit[i]` is the place's bit (0: worth nothing), `value[i]` of a first visit and `utility[i]` are in nats,
-    and a value of `great` nats is worth going beyond the look-ahead.
+    where, `bit[i]` is the place's bit (0: worth nothing), `value[i]` of a first visit, the `greatest` of them, and
+    `utility[i]` are in nats.
     """
 
     ways: list[list[tuple[int, int, float]]]
@@ -109,7 +110,7 @@ class _Skeleton:
     bit: list[int]
     value: list[float]
     utility: list[float]
-    great: float
+    greatest: float
 
     @classmethod
     def of(cls, model: LocalModel) -> _Skeleton:
@@ -129,7 +130,7 @@ class _Skeleton:
         greatest = float(value.max())
         floor = max(SHARE * greatest, LEAST)
         bit = [1 << i if worth > floor else 0 for i, worth in enumerate(value.tolist())]
-        return cls(ways, unknown, bit, value.tolist(), model.utility.tolist(), max(GREAT * greatest, LEAST))
+        return cls(ways, unknown, bit, value.tolist(), model.utility.tolist(), greatest)
 
 
 def _starts(model: LocalModel) -> list[int]:
@@ -139,11 +140,11 @@ def _starts(model: LocalModel) -> list[int]:
     return [i for i in order if model.belief[i] >= least]
 
 
-def _grow(skeleton: _Skeleton, start: int, look_ahead: int, beam: int) -> tuple[list[Path], int, bool]:
-    """The paths from `start`, the prefixes that the beam dropped, and whether a place of great value was among them."""
+def _grow(skeleton: _Skeleton, start: int, look_ahead: int, beam: int) -> tuple[list[Path], int, float]:
+    """The paths from `start`, the prefixes that the beam dropped, and the greatest value of a place they lead to."""
     first: Prefix = (look_ahead * skeleton.utility[start], 0.0, start, skeleton.bit[start], ())
     archive: Archive = {start: [(first[3], first[0])]}
-    level, paths, cut, found = [first], [()], 0, False
+    level, paths, cut, best = [first], [()], 0, 0.0
     for left in range(look_ahead, 0, -1):
         paths += _into_the_unknown(skeleton, level)
         candidates = _children(skeleton, level, left)
@@ -151,8 +152,8 @@ def _grow(skeleton: _Skeleton, start: int, look_ahead: int, beam: int) -> tuple[
         cut += dropped
         paths += [prefix[4] for prefix in level]
         ends = {prefix[2] for prefix in level} - {start}
-        found = found or any(skeleton.value[place] >= skeleton.great for place in ends)
-    return paths, cut, found
+        best = max(best, *(skeleton.value[place] for place in ends), 0.0)
+    return paths, cut, best
 
 
 def _children(skeleton: _Skeleton, level: list[Prefix], left: int) -> list[Prefix]:
@@ -201,8 +202,12 @@ def _into_the_unknown(skeleton: _Skeleton, level: list[Prefix]) -> list[Path]:
     return [(*path, action) for place, path in best.items() for action in skeleton.unknown[place]]
 
 
-def _beyond(skeleton: _Skeleton, start: int) -> list[Path]:
-    """Shortest paths to the nearest places of great value; if there are none, into the nearest unknown ways."""
+def _beyond(skeleton: _Skeleton, start: int, best: float) -> list[Path]:
+    """Shortest paths to the nearest places of great value; if there are none, into the nearest unknown ways.
+
+    Great is half the greatest value that can be reached. Where one of great value is near (`best`), to those that are
+    worth more than all that is nearer.
+    """
     shortest: dict[int, Path] = {start: ()}
     queue = [start]
     for place in queue:
@@ -211,6 +216,19 @@ def _beyond(skeleton: _Skeleton, start: int) -> list[Path]:
                 shortest[after] = (*shortest[place], action)
                 queue.append(after)
     del shortest[start]
-    worthy = [path for place, path in shortest.items() if skeleton.value[place] >= skeleton.great]
+    great = max(GREAT * max((skeleton.value[place] for place in shortest), default=0.0), LEAST)
+    if best >= great:
+        return _better(skeleton, shortest, best)
+    worthy = [path for place, path in shortest.items() if skeleton.value[place] >= great]
     unknown = [(*path, a) for place, path in shortest.items() for a in skeleton.unknown[place]]
     return (worthy or unknown)[:BEYOND]
+
+
+def _better(skeleton: _Skeleton, shortest: dict[int, Path], best: float) -> list[Path]:
+    """The paths to places each of which is worth more than all before it; the last of them where they are many."""
+    better: list[Path] = []
+    for place, path in shortest.items():
+        if skeleton.value[place] > MORE * best:
+            best = skeleton.value[place]
+            better.append(path)
+    return better[-BEYOND:]

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # a type checker finds these in an installed wheel, not in a checkout
     from cogmap.agent import Agent, Settings  # pyright: ignore[reportMissingImports]
+    from cogmap.model import UNSEEN  # pyright: ignore[reportMissingImports]
     from cogmap.worlds import load_world  # pyright: ignore[reportMissingImports]
 
 __version__ = version("cogmap")
 
-_HOMES = {"Agent": "agent", "Settings": "agent", "load_world": "worlds"}
+_HOMES = {"UNSEEN": "model", "Agent": "agent", "Settings": "agent", "load_world": "worlds"}
 
-__all__ = ["Agent", "Settings", "__version__", "load_world"]
+__all__ = ["UNSEEN", "Agent", "Settings", "__version__", "load_world"]
 
 
 def __getattr__(name: str) -> Any:

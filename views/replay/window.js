@@ -68,13 +68,15 @@ function factorSpot(factor, places) {
 }
 
 const openWays = (seen_) => {
-  const ways = seen_.map((is, action) => (is && action !== R.motions.stay ? ARROWS[action] : "")).join("");
+  const ways = seen_.map((is, action) => (is >= 0.5 && action !== R.motions.stay ? ARROWS[action] : "")).join("");
   return ways || "none";
 };
 
+const isWay = (is) => is === null || typeof is === "boolean" || typeof is === "number"; // staying is always true
+
 function variableText(variable, index) {
   const ways = variable.observed && variable.seen && variable.seen.tuple;
-  if (ways && ways.length && ways.every((is) => typeof is === "boolean")) return openWays(ways);
+  if (ways && ways.length && ways.every(isWay) && ways.some((is) => is === true)) return openWays(ways);
   if (variable.observed) return clipped(said(variable.seen), 7);
   const top = topAt(variable.name, index);
   if (!top) return "";

@@ -16,7 +16,7 @@ function placeName(place) {
 }
 
 function seen(frame) {
-  const open = ACTIONS.filter((_, action) => frame.open && frame.open[action] && action !== R.motions.stay);
+  const open = ACTIONS.filter((_, action) => frame.open && frame.open[action] >= 0.5 && action !== R.motions.stay);
   const ways = frame.open ? `; ${open.length ? "open: " + open.join(", ") : "no way is open"}` : "";
   const labels = Object.entries(frame.seen).map(([sensor, seen_]) => [sensor, clipped(R.looks[seen_][0], 40)]);
   const what = labels.length === 1 ? `sees ${labels[0][1]}` : `senses ${labels.map((pair) => pair.join(" ")).join(", ")}`;

@@ -1,0 +1,119 @@
+"""What a map is worth beside the truth, whatever its places are called and whether or not they have positions."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from ..agent import Agent
+from ..model import CognitiveMap
+from ..worlds import Chart, Place, place_of
+from .running import Moment
+
+BELIEVED = 0.6
+"""A true transition counts as known from this probability on."""
+CERTAIN = 0.7
+"""From this probability on an agent counts as certain of a place."""
+OPEN = 0.5
+"""What is imagined behind a way counts as a place of the map if the way is believed to lead there at least so much."""
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A map beside the truth.
+
+    Attributes:
+        places: those that were visited, and those that are imagined behind ways believed open.
+        map_right: whether each visited room is one place, each visited place one room, and every true transition
+            among visited rooms, walls included, is believed at `BELIEVED` or more.
+        known: share of all true transitions of the world that are believed so much.
+    """
+
+    places: int
+    map_right: bool
+    known: float
+
+
+def judge(map_: CognitiveMap, chart: Chart, rooms: Mapping[int, Place], visited: Collection[Place]) -> Verdict:
+    """Compare a map with the truth.
+
+    Args:
+        map_: the map.
+        chart: the true map, everything open.
+        rooms: the room that each visited place stands for, None where nobody knows.
+        visited: the rooms that were truly visited.
+    """
+    here = {room: place for place, room in rooms.items() if room is not None}
+    one_to_one = len(here) == len(rooms) == int(map_.visited.sum()) and here.keys() == set(visited)
+    among, known, imagined = True, 0, _imagined(map_)
+    for room, place in here.items():
+        for action, ahead in enumerate(islice(chart.successors(room).values(), len(map_.motions))):
+            if ahead in here:
+                believed = map_.transition(here[ahead], place, action) >= BELIEVED
+                among &= believed
+            else:  # the room beyond was never entered: what is imagined there stands for it
+                believed = imagined.get((place, action), (0, 0.0))[1] >= BELIEVED
+            known += believed
+    places = int(map_.visited.sum()) + len({to for to, _ in imagined.values()})
+    return Verdict(places, one_to_one and among, known / _transitions(chart))
+
+
+class Trail:
+    """Looks on: where an agent truly was, where it took itself to be, and how often it was certain and wrong.
+
+    Attributes:
+        rooms: the true room at each step.
+        wrong: steps at which its certainty was `CERTAIN` or more, and the most probable place belonged to another room
+            than the true one. A place belongs to the room in which it was visited most.
+    """
+
+    def __init__(self) -> None:
+        self.rooms: list[Place] = []
+        self.wrong = 0
+        self._been: dict[int, Counter[Place]] = {}
+
+    def __call__(self, moment: Moment) -> None:
+        """Look at a choice."""
+        agent, room = moment.agent, place_of(moment.info)
+        self.rooms.append(room)
+        if isinstance(agent, Agent):
+            belief = agent.belief
+            self._been.setdefault(belief.place, Counter())[room] += 1
+            self.wrong += belief.certainty >= CERTAIN and self.room(agent, belief.place) != room
+
+    def room(self, agent: Agent, place: int) -> Place | None:
+        """The room in which a place was visited most; None if it never was."""
+        steps_in: Any = getattr(agent, "steps_in", None)
+        if steps_in is None:
+            been = self._been.get(place, Counter())
+        else:  # the best hypothesis knows better than what was believed at the time
+            first = agent.steps - len(self.rooms)
+            been = Counter(self.rooms[step - first] for step in steps_in(place) if step >= first)
+        return been.most_common(1)[0][0] if been else None
+
+    def verdict(self, agent: Agent, chart: Chart) -> Verdict:
+        """What its map is worth now."""
+        rooms = {place: self.room(agent, place) for place in agent.map.visited_places.tolist()}
+        return judge(agent.map, chart, rooms, set(self.rooms))
+
+
+def _imagined(map_: CognitiveMap) -> dict[tuple[int, int], tuple[int, float]]:
+    """What is imagined behind each way of a visited place, by (place, action), and how probably it leads there."""
+    places, actions = map_.visited_places, len(map_.motions)
+    keys, p, _ = map_.B_s.mean(map_.rows_of(places))
+    found = [
+        (int(row), int(keys[row, slot]), float(p[row, slot])) for row, slot in np.argwhere((keys >= 0) & (p >= OPEN))
+    ]
+    return {(int(places[row // actions]), row % actions): (to, q) for row, to, q in found if not map_.visited[to]}
+
+
+def _transitions(chart: Chart) -> int:
+    """How many true transitions there are."""
+    if chart.motions.local:
+        return sum(len(chart.exits(place)) for place in chart.places)
+    return len(chart.places) * len(chart.motions.names)
