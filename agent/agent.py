@@ -159,6 +159,15 @@ class Agent:
         """What it has learned of how reliable its sensors, its moves and the ways of this world are."""
         return tuple(self._recognition.rates)
 
+    def steps_in(self, place: int) -> tuple[int, ...]:
+        """The last steps, a handful at most, at which it was in a place of its map, as it believes now.
+
+        Raises:
+            CogmapError: the map has no such place.
+        """
+        self.map.check_place(place)
+        return self._recognition.mirror.steps_in(place)
+
     @property
     def certain(self) -> bool:
         """Whether one place holds enough of the belief to learn (paper's threshold: 0.7)."""

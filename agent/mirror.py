@@ -84,6 +84,11 @@ class Mirror:
         here = h.places[h.here]
         return here.frame, here.position
 
+    def steps_in(self, place: int) -> tuple[int, ...]:
+        """The last steps at which the agent was in a place of the map, if the map is right; a handful at most."""
+        numbers = [number for number, at in self.places.items() if at == place]
+        return self._records[numbers[0]].recent if numbers and numbers[0] in self._records else ()
+
     def doors(self, h: Hypothesis, number: int) -> tuple[bool | None, ...]:
         """For each action whether its way is believed open; None where nothing is known of it."""
         map_, record = self._map, h.places[number]
@@ -137,7 +142,7 @@ class Mirror:
             return False
         if h.periods.get(0, ()) != map_.pose.periods or map_.pose.origin is None:
             return False
-        for number in changed:
+        for number in {*changed, h.here}:
             at, place = self.position(h, number), self.places.get(number)
             there = None if at is None else map_.pose.place_at(at)
             if place is None and there is not None and (map_.visited[there] or there in self.places.values()):
