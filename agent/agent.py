@@ -331,8 +331,7 @@ class Agent:
         Raises:
             CogmapError: no such file, or it is no saved map, truncated, or from a newer schema.
         """
-        header, arrays = storage.read(path)
-        with storage.damage(path):
+        with storage.reading(path) as (header, arrays):
             return cls.from_state(header, arrays, sensors=sensors, pose=pose, growth=growth, planner=planner)
 
     def state(self) -> tuple[dict[str, Any], Arrays]:

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inference import Belief, Message
-from ..model import CogmapError, CognitiveMap, Percept, Slice, Table, encode, plain, window_graph
+from ..model import CogmapError, CognitiveMap, Percept, Slice, Table, encode, plain
+from .checks import check_state
+from .fitting import checked
 from .state import Choice, GivenPreferences, State
 
 Arrays = dict[str, NDArray[Any]]
@@ -66,7 +68,7 @@ def unpack(value: Any, arrays: Mapping[str, NDArray[Any]]) -> Any:
         return arrays[parts["array"]]
     if "record" in parts:
         kind = RECORDS[parts["record"]]
-        return kind(**{name: unpack(part, arrays) for name, part in parts.items() if name != "record"})
+        return checked(kind, {name: unpack(part, arrays) for name, part in parts.items() if name != "record"})
     if "pairs" in parts:
         return {unpack(key, arrays): unpack(item, arrays) for key, item in parts["pairs"]}
     items = [unpack(item, arrays) for item in parts["tuple" if "tuple" in parts else "list"]]
@@ -79,39 +81,9 @@ def unpacked_state(packed: Any, arrays: Mapping[str, NDArray[Any]], map_: Cognit
     Raises:
         CogmapError: belief or window are not about the map.
     """
-    state: State = unpack(packed, arrays)
+    state = unpack(packed, arrays)
+    if not isinstance(state, State):
+        raise CogmapError("there is no state of an agent")
     state.window = deque(state.window, maxlen=window + 1)
-    if state.belief is not None:
-        _check_belief(state.belief, map_)
-    for slice_ in state.window:
-        numbers, shape = (slice_.places, slice_.positions), (len(slice_.places), len(slice_.positions))
-        if not all(map(_is_list, numbers)) or slice_.joint.shape != shape:
-            raise CogmapError("the window does not fit its places and positions")
-        _check_numbers(*numbers, map_)
-    for variable in window_graph(map_, state.window).variables:  # its factors check their shapes
-        assert variable.domain
+    check_state(state, map_)
     return state
-
-
-def _check_belief(belief: Belief, map_: CognitiveMap) -> None:
-    message, told = belief.message, belief.log_likelihood
-    of_pairs = (message.places, message.positions, message.mass, told)
-    lists = (*zip(of_pairs, "iiff", strict=True), *zip(belief.pairwise, "iif", strict=True))
-    if not all(_is_list(part) and part.dtype.kind == kind for part, kind in lists):
-        raise CogmapError("a list of the belief is none of numbers of its kind")
-    if len(set(map(len, of_pairs))) > 1 or len(set(map(len, belief.pairwise))) > 1:
-        raise CogmapError("the masses of the belief do not belong to its places and positions")
-    fine = abs(message.mass.sum() - 1.0) < 1e-6 and np.isfinite(told).all() and (message.mass >= 0.0).all()
-    if not fine:
-        raise CogmapError("the masses of the belief are no probabilities")
-    _check_numbers(message.places, message.positions, map_)
-
-
-def _check_numbers(places: NDArray[Any], positions: NDArray[Any], map_: CognitiveMap) -> None:
-    for numbers, count in ((places, len(map_.places)), (positions, max(len(map_.positions), 1))):
-        if not len(numbers) or numbers.min() < 0 or numbers.max() >= count:
-            raise CogmapError("belief or window are about places that the map does not have")
-
-
-def _is_list(numbers: Any) -> bool:
-    return isinstance(numbers, np.ndarray) and numbers.ndim == 1

@@ -152,14 +152,14 @@ class Recognition:
         own = {"places": places, "current": mirror.current, "followed": followed, "moved": self.moved}
         return {"tracker": tracker[0], **own}
 
-    def restore(self, state: Mapping[str, Any], arrays: Arrays) -> None:
+    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
         """Take over what `state` gave.
 
         Raises:
             CogmapError: it is damaged, or of another map.
         """
         prefix = "tracker."
-        own = {name.removeprefix(prefix): values for name, values in arrays.items() if name.startswith(prefix)}
+        own = {name.removeprefix(prefix): arrays[name] for name in arrays if name.startswith(prefix)}
         self.tracker = Tracker.restored(self.sensing.scheme, self.tracker.options, (state["tracker"], own))
         places = {int(number): int(place) for number, place in state["places"]}
         self.followed = None if state["followed"] is None else self.tracker.hypotheses[int(state["followed"])]

@@ -5,14 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from numpy.typing import NDArray
+
 _GONE = ("rivals", "pending", "recent", "retracted")
 
+Arrays = Mapping[str, NDArray[Any]]
 
-def from_schema_3(header: Mapping[str, Any]) -> dict[str, Any]:
-    """The header as it would be written now.
+
+def from_schema_3(header: Mapping[str, Any], arrays: Arrays) -> tuple[dict[str, Any], Arrays]:
+    """Header and arrays as they would be written now.
 
     Raises:
-        KeyError: the file is damaged.
+        KeyError, ValueError: the file is damaged.
     """
     state = {name: part for name, part in header["state"].items() if name not in _GONE}
-    return {**header, "state": state}
+    for name in arrays:
+        if name.startswith(("state.rivals.", "state.recent.")):
+            _ = arrays[name]  # nothing is left of it, but it may not be damaged either
+    return {**header, "state": state}, arrays

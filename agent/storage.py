@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import struct
-import tokenize
 import zipfile
 import zlib
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from importlib.metadata import PackageNotFoundError, version
 from os import PathLike
@@ -17,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import CogmapError, write_through
+from ..model import CogmapError, open_regular, parse_json, write_through
+from .members import Members
 from .parts import MissingPart
 from .schema_2 import from_schema_2
 from .schema_3 import from_schema_3
@@ -26,6 +26,15 @@ SCHEMA, OLDEST = 4, 2
 """Version of the layout of the file, and the oldest that can be read."""
 
 FORMAT = "cogmap agent"
+
+_UPDATES = {2: from_schema_2, 3: from_schema_3}
+"""What reads earlier versions as if they were written now."""
+
+_BROKEN = (OSError, EOFError, RuntimeError, struct.error, zipfile.BadZipFile, zlib.error)
+"""What reading raises where a file is none; deep nesting is a `RuntimeError` too."""
+
+_WRONG = (AssertionError, AttributeError, ArithmeticError, LookupError, MemoryError, TypeError, ValueError)
+"""What making an agent of it raises where something in it is wrong."""
 
 
 def write(path: str | PathLike[str], header: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> None:
@@ -44,20 +53,20 @@ def write(path: str | PathLike[str], header: dict[str, Any], arrays: dict[str, N
     write_through(Path(path), fill)
 
 
-def read(path: str | PathLike[str]) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Header and arrays of the file, in the present schema.
+@contextmanager
+def reading(path: str | PathLike[str]) -> Generator[tuple[dict[str, Any], Mapping[str, NDArray[Any]]]]:
+    """Header and arrays of the file, in the present schema; each array is read when it is asked for.
+
+    What goes wrong within means that the file is damaged, and so does an array that nobody has asked for in the end.
 
     Raises:
-        CogmapError: no such file, no saved agent, truncated, or written by a newer version.
+        CogmapError: no such file, no saved agent, too large, truncated, or written by a newer version.
     """
-    arrays = _read(Path(path))
-    header = _header(Path(path), arrays)
-    with damage(path):
-        if header["schema"] == 2:
-            return from_schema_2(header, arrays)
-        if header["schema"] == 3:
-            return from_schema_3(header), arrays
-    return header, arrays
+    with _members(Path(path)) as members, damage(path):
+        header = _header(Path(path), members)
+        yield _UPDATES[header["schema"]](header, members) if header["schema"] in _UPDATES else (header, members)
+        if unknown := members.unread:
+            raise ValueError(f"it has an array {unknown[0][:80]!r} that no agent has")
 
 
 @contextmanager
@@ -67,8 +76,11 @@ def damage(path: str | PathLike[str]) -> Generator[None]:
         yield
     except MissingPart:
         raise
-    except (AssertionError, AttributeError, ArithmeticError, LookupError, TypeError, ValueError) as error:
-        raise CogmapError(f"load: {path} is damaged ({type(error).__name__}: {error}); save the agent again") from error
+    except (*_BROKEN, *_WRONG) as error:
+        if isinstance(error, CogmapError) and str(error).startswith(f"load: {path}"):
+            raise
+        why = " ".join(f"{type(error).__name__}: {error}".split())[:300]
+        raise CogmapError(f"load: {path} is damaged ({why}); save the agent again") from error
 
 
 def read_header(path: str | PathLike[str]) -> dict[str, Any]:
@@ -77,7 +89,8 @@ def read_header(path: str | PathLike[str]) -> dict[str, Any]:
     Raises:
         CogmapError: no such file, no saved agent, truncated, or of another schema.
     """
-    return _header(Path(path), _read(Path(path)))
+    with _members(Path(path)) as members:
+        return _header(Path(path), members)
 
 
 def _version() -> str | None:
@@ -100,40 +113,35 @@ def _plain(value: object) -> Any:
     raise TypeError(f"cannot write {value!r} of type {type(value).__name__}")
 
 
-def _read(path: Path) -> dict[str, NDArray[Any]]:
+@contextmanager
+def _members(path: Path) -> Generator[Members]:
     try:
-        with path.open("rb") as raw:
-            file = np.load(raw, allow_pickle=False)
-            if not isinstance(file, np.lib.npyio.NpzFile):
-                raise CogmapError(f"load: {path} is no saved agent but a single array; give a file that save wrote")
-            with file:
-                return {name: file[name] for name in file.files}
+        raw = open_regular(path)
     except FileNotFoundError as error:
         raise CogmapError(f"load: there is no file {path}; give a file that save wrote") from error
-    except (
-        OSError,
-        EOFError,
-        RuntimeError,
-        SyntaxError,
-        ValueError,
-        struct.error,
-        tokenize.TokenError,
-        zipfile.BadZipFile,
-        zlib.error,
-    ) as error:
-        if isinstance(error, CogmapError):
-            raise
-        raise CogmapError(f"load: {path} is no saved agent, or truncated; give a file that save wrote") from error
+    except (OSError, CogmapError) as error:
+        raise CogmapError(f"load: {path} is no saved agent ({error}); give a file that save wrote") from error
+    with raw:
+        if raw.read(6) == b"\x93NUMPY":
+            raise CogmapError(f"load: {path} is no saved agent but a single array; give a file that save wrote")
+        try:
+            members = Members(raw)
+        except (*_BROKEN, ValueError) as error:
+            why = f"no saved agent, or truncated ({' '.join(str(error).split())[:200]})"
+            raise CogmapError(f"load: {path} is {why}; give a file that save wrote") from error
+        yield members
 
 
-def _header(path: Path, arrays: dict[str, NDArray[Any]]) -> dict[str, Any]:
+def _header(path: Path, members: Members) -> dict[str, Any]:
     try:
-        header: dict[str, Any] = json.loads(arrays["header"].tobytes())
+        header: dict[str, Any] = parse_json(members["header"].tobytes())
         schema = int(header["schema"]) if header["format"] == FORMAT else -1
-    except (KeyError, OverflowError, TypeError, ValueError) as error:
-        raise CogmapError(f"load: {path} is no saved agent (no header); give a file that save wrote") from error
+    except (*_BROKEN, KeyError, OverflowError, TypeError, ValueError) as error:
+        why = " ".join(str(error).split())[:200]
+        raise CogmapError(f"load: {path} is no saved agent (no header: {why}); give a file that save wrote") from error
     if schema < 0:
-        raise CogmapError(f"load: {path} is a {header['format']!r}, no saved agent; give a file that save wrote")
+        kind = f"{header['format']!r}"[:80]
+        raise CogmapError(f"load: {path} is a {kind}, no saved agent; give a file that save wrote")
     if schema < OLDEST:
         raise CogmapError(f"load: {path} has schema {schema}, older than {OLDEST}; explore and save again")
     if schema > SCHEMA:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..agent import Agent
 from ..baselines import FrontierAgent
-from ..worlds import Chart, Maze, Place, covering_steps, frontier_walk, place_of, world_of
+from ..worlds import MOST_WALKED, Chart, Maze, Place, covering_steps, frontier_walk, place_of, world_of
 from .judging import Trail
 from .knowledge import Truth
 from .records import OPTIONAL, Record, mean, ratio, std
@@ -35,6 +35,7 @@ class ExploreRun(Record):
         oracle_steps: of the shortest walk through all rooms; None where it is out of reach.
         seconds: of the walk, the oracle left out.
         frontier_steps: of nearest-frontier search, only where the oracle is out of reach.
+        not_worked_out: what was left out, and why; None if nothing was.
         places, map_right, known: of an agent with a map, what that map is worth at the end; see `Verdict`.
         certain_but_wrong: share of the steps at which the agent was certain of a place that belongs to another room.
     """
@@ -47,6 +48,7 @@ class ExploreRun(Record):
     oracle_steps: int | None
     seconds: float = field(compare=False)
     frontier_steps: int | None = field(default=None, metadata=OPTIONAL)
+    not_worked_out: str | None = field(default=None, metadata=OPTIONAL)
     places: int | None = field(default=None, metadata=OPTIONAL)
     map_right: bool | None = field(default=None, metadata=OPTIONAL)
     known: float | None = field(default=None, metadata=OPTIONAL)
@@ -93,9 +95,10 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
     seconds = round(perf_counter() - begin, 4)
     oracle = oracle_steps(chart_of(world), session.start)
     instead = frontier_steps(chart_of(world), session.start) if oracle is None else None
+    left_out = f"oracle_steps, frontier_steps: more than {MOST_WALKED} places" if oracle is instead is None else None
     figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
     return Walk(
-        ExploreRun(seed, session.start, *figures, *_worth(session, known.trail)),
+        ExploreRun(seed, session.start, *figures, left_out, *_worth(session, known.trail)),
         done.truth,
         session.agent,
         session.truth,
@@ -164,7 +167,7 @@ def oracle_steps(chart: Chart, start: Place) -> int | None:
 
 @lru_cache(maxsize=4096)
 def frontier_steps(chart: Chart, start: Place) -> int | None:
-    """Steps in which nearest-frontier search visits every place, its draws settled by seed 0; None of a large graph."""
+    """Steps in which nearest-frontier search visits every place, its draws settled by seed 0; None of a large world."""
     return frontier_search(chart, start, seed=0)
 
 
@@ -174,6 +177,8 @@ def frontier_search(chart: Chart, start: Place, seed: Any, *, goal: Any = None) 
         walk = frontier_walk(chart, start, rng=np.random.default_rng(seed))
         there = [step for step, place in enumerate(walk or ()) if goal in (None, chart.sights[place])]
         return None if not there else there[-1] if goal is None else there[0]
+    if len(chart.places) > MOST_WALKED:
+        return None
     left, most = set(chart.places), len(chart.places) ** 2 + 1  # a new room takes no more steps than there are rooms
 
     def arrived(moment: Moment) -> bool:

@@ -10,7 +10,10 @@ from io import FileIO
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
-from ..model import CogmapError
+from ..model import CogmapError, check_size, parse_json
+
+LARGEST = 256 * 2**20
+"""Bytes of the largest file of rows that is read."""
 
 SCHEMA, VERSION = "cogmap.cells", 1
 _BEGINNING = f'{{"schema": "{SCHEMA}"'.encode()
@@ -131,6 +134,7 @@ def _opened(path: Path) -> FileIO:
 
 def _read(file: FileIO, path: Path) -> tuple[_Row | None, list[_Row], int]:
     """Header (None of an empty file), rows, and how many bytes are whole lines: the last one may be torn."""
+    check_size(path, file.seek(0, os.SEEK_END), LARGEST)
     file.seek(0)
     lines = file.readall().splitlines(keepends=True)
     torn = len(lines) == 1 and not lines[0].endswith(b"\n")
@@ -155,7 +159,7 @@ def _read(file: FileIO, path: Path) -> tuple[_Row | None, list[_Row], int]:
 def _parsed(line: bytes) -> _Row | None:
     """The object in a whole line; None if there is none."""
     try:
-        value: Any = json.loads(line) if line.endswith(b"\n") else None
+        value: Any = parse_json(line) if line.endswith(b"\n") else None
     except ValueError:
         return None
     return cast(_Row, value) if isinstance(value, dict) else None

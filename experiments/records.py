@@ -64,6 +64,7 @@ class Record:
 
 _KINDS: dict[Any, tuple[str, tuple[type, ...]]] = {
     str: ("a word", (str,)),
+    str | None: ("a word or null", (str, type(None))),
     int: ("a whole number", (int,)),
     int | None: ("a whole number or null", (int, type(None))),
     float: ("a number", (int, float)),

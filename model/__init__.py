@@ -80,6 +80,7 @@ from .motions import Motions, MotionSpec, Position
 from .percept import OUTCOMES, Outcome, Percept
 from .periods import Periods, reduced, with_period
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
+from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file, unpack_gzip
 from .slices import Slice, take_slice, window_graph
 from .unseen import UNSEEN, Unseen
 from .updates import ParameterUpdate, updates
@@ -158,7 +159,10 @@ __all__ = [
     "Whereabouts",
     "before",
     "check_folder",
+    "check_size",
+    "check_values",
     "check_writable",
+    "count_values",
     "counts_of",
     "decode",
     "dirichlet_information",
@@ -178,10 +182,13 @@ __all__ = [
     "map_graph",
     "map_state",
     "map_table",
+    "open_regular",
+    "parse_json",
     "place_beyond",
     "plain",
     "quoted",
     "read_bif",
+    "read_file",
     "read_uai",
     "read_uai_evidence",
     "read_xmlbif",
@@ -194,6 +201,7 @@ __all__ = [
     "table",
     "take_slice",
     "transitions",
+    "unpack_gzip",
     "unused",
     "updates",
     "window_graph",

@@ -53,9 +53,14 @@ def change_arrays(changes: Changes, stores: Sequence[Store], growth: Sequence[Gr
 
 
 def restore_changes(
-    changes: Changes, arrays: Mapping[str, NDArray[Any]], stores: Sequence[Store], growth: Sequence[GrowthEvent]
+    changes: Changes,
+    arrays: Mapping[str, NDArray[Any]],
+    stores: Sequence[Store],
+    growth: Sequence[GrowthEvent],
+    *,
+    places: int,
 ) -> None:
-    """Give an empty log what `change_arrays` took from another.
+    """Give an empty log what `change_arrays` took from another, of a map that has so many places now.
 
     Raises:
         CogmapError: the rows are not about these stores.
@@ -71,15 +76,30 @@ def restore_changes(
     if not (fits and ((rows[:, 0] >= _EVENT) & (rows[:, 0] < len(stores))).all()):
         raise CogmapError("changes: the rows are not about this map; save it again")
     entries = [_entry(row, arrays, stores, growth) for row in rows.tolist()]
+    _check(entries, stores[0], places)
     changes.restore(int(first[0]), entries, marks.tolist(), [(begin, end) for begin, end in undone.tolist()])
+
+
+def _check(entries: Sequence[Entry], places_store: Store, places: int) -> None:
+    """Go back through the entries, as undoing them does, and see that each could be."""
+    for entry in reversed(entries):
+        if isinstance(entry, GrowthEvent):
+            continue
+        store, where, old, _ = entry
+        if not store.fits(where, old, places):
+            raise CogmapError(f"changes: one of {store.name} cannot be undone; save it again")
+        if store is places_store:
+            places += 1 if old else -1
 
 
 def _entry(
     row: list[float], arrays: Mapping[str, Any], stores: Sequence[Store], growth: Sequence[GrowthEvent]
 ) -> Entry:
     where: Any = (int(row[1]), int(row[2])) if row[2] >= 0 else int(row[1])
-    if row[0] == _EVENT:
+    if row[0] == _EVENT and 0 <= where < len(growth):
         return growth[where]
+    if row[0] == _EVENT:
+        raise CogmapError("changes: a row is about growth that was not; save it again")
     store = stores[int(row[0])]
     if where == _ALL:
         old, new = (arrays[f"changes.faded.{int(row[at])}"] if row[at + 1] else row[at] for at in (3, 6))

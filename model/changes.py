@@ -43,6 +43,10 @@ class Store(Protocol):
         """A value as `put` takes it, from the numbers that a file has of it."""
         ...
 
+    def fits(self, where: Any, value: Any, places: int) -> bool:
+        """Whether `put` could take this, where there are so many places."""
+        ...
+
     def touched(self, where: Any) -> Iterable[int] | None:
         """The places whose columns a change at `where` is about; None: any of them."""
         ...

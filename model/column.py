@@ -24,7 +24,7 @@ class Column:
         changes: the log that is told; none unless given.
     """
 
-    __slots__ = ("_array", "_changes", "_fill", "_length", "name")
+    __slots__ = ("_array", "_changes", "_fill", "_length", "_range", "name")
 
     def __init__(
         self,
@@ -40,6 +40,7 @@ class Column:
         self._changes = changes
         self._array = np.full((8,) if width is None else (8, width), fill, dtype=dtype)
         self._length = 0
+        self._range = -inf, inf  # of what a file may have
 
     def __len__(self) -> int:
         return self._length
@@ -78,6 +79,15 @@ class Column:
         """A number of a cell, from a file."""
         return self._array.dtype.type(numbers[0]).item()
 
+    def fits(self, where: Any, value: Any, places: int) -> bool:
+        """Whether `put` can take this, where there are so many places; rows may be other things as well."""
+        row, column = where if isinstance(where, tuple) else (where, None)
+        width = self._array.shape[1] if self._array.ndim > 1 else None
+        if not (isinstance(row, int) and 0 <= row < max(places, len(self._array))):
+            return False
+        inside = column is None if width is None else column is not None and 0 <= column < width
+        return inside and self._range[0] <= value < max(self._range[1], places)
+
     def touched(self, where: int | tuple[int, int]) -> Iterable[int]:
         """The row, where rows are places."""
         return (where[0] if isinstance(where, tuple) else where,)
@@ -101,3 +111,4 @@ class Column:
                 f"map: {self.name} does not fit {len(self)} rows of {least:g} to {bound:g}; save it again"
             )
         self.values[:] = values
+        self._range = least, bound

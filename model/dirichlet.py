@@ -20,6 +20,9 @@ Ints = NDArray[np.int64]
 EMPTY = -2
 """Key of an unused slot."""
 
+LARGEST = 1e301
+"""What no count reaches, so that all those of a row have a finite sum."""
+
 
 def _grown(array: NDArray[np.generic], shape: tuple[int, int], fill: float) -> NDArray[np.generic]:
     larger = np.full(shape, fill, dtype=array.dtype)
@@ -49,6 +52,7 @@ class SparseDirichlet:
 
     __slots__ = (
         "_alpha",
+        "_bound",
         "_changes",
         "_evidence",
         "_keys",
@@ -77,6 +81,7 @@ class SparseDirichlet:
         self.rows_each = rows_each
         self._changes = changes
         self._rows = 0
+        self._bound = inf  # of the outcomes that a file may have
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
         self._evidence: Floats = np.zeros((8, slots))
@@ -138,6 +143,20 @@ class SparseDirichlet:
     def value(self, numbers: Sequence[float]) -> tuple[int, float, float]:
         """Outcome, prior and evidence of a slot, from a file."""
         return int(numbers[0]), numbers[1], numbers[2]
+
+    def fits(self, where: Any, value: Any, places: int) -> bool:
+        """Whether `put` can take this, where there are so many places."""
+        if where is None:
+            if not isinstance(value, np.ndarray):
+                return 0.0 <= value <= 1.0
+            slots = self._keys.shape[1]
+            return value.shape[0] == places * self.rows_each and value.shape[1] <= slots and _within(value, 0, LARGEST)
+        if not (isinstance(where, tuple) and isinstance(value, tuple)):
+            return False
+        row, slot = where
+        key, *counts = value
+        inside = 0 <= row < places * self.rows_each and 0 <= slot < self._keys.shape[1]
+        return inside and EMPTY <= key < max(self._bound, places) and all(0.0 <= count < LARGEST for count in counts)
 
     def touched(self, where: tuple[int, int] | None) -> Iterable[int] | None:
         """The place whose row it is."""
@@ -277,22 +296,32 @@ class SparseDirichlet:
         parts = {"keys": self._keys, "prior": self._prior, "evidence": self._evidence}
         return {name: part[rows].copy() for name, part in parts.items()}
 
-    def restore(self, state: Mapping[str, NDArray[Any]], *, outcomes: float = inf) -> None:
-        """Take over what `state` returned of a table of as many rows, over so many outcomes at most.
+    def restore(self, state: Mapping[str, NDArray[Any]], *, outcomes: float = inf, least: int = 0) -> None:
+        """Take over what `state` returned of a table of as many rows, over outcomes in [least, outcomes).
 
         Raises:
-            CogmapError: it is of another table, or holds what is no count.
+            CogmapError: it is of another table, holds what is no count, or an outcome of a row twice.
         """
         keys, prior, evidence = (state[part] for part in ("keys", "prior", "evidence"))
         fits = keys.ndim == 2 and len(keys) == self._rows and keys.shape == prior.shape == evidence.shape
-        fits = fits and all(_within(counts, 0, inf) for counts in (prior, evidence))
-        if not (fits and keys.dtype.kind == "i" and _within(keys, EMPTY, outcomes)):
+        fits = fits and keys.shape[1] > 0 and all(_within(counts, 0, LARGEST) for counts in (prior, evidence))
+        if not (fits and keys.dtype.kind == "i" and _sound(keys, (prior != 0.0) | (evidence != 0.0), least, outcomes)):
             where = f"{self._rows} rows of {outcomes:g} outcomes"
             raise CogmapError(f"map: the counts of {self.name} do not fit {where}; save it again")
+        self._bound = outcomes
         self._keys = keys.astype(np.int64)
         self._prior, self._evidence = prior.astype(np.float64), evidence.astype(np.float64)
         self._alpha, self._total = np.zeros_like(self._prior), np.zeros(self._rows)
         self._add_up()
+
+
+def _sound(keys: Ints, counted: NDArray[np.bool_], least: int, bound: float) -> bool:
+    """Whether each key is an outcome, no row has one twice, and no slot without has counts."""
+    used = keys != EMPTY
+    ordered = np.sort(keys, axis=1)
+    twice = (ordered[:, 1:] == ordered[:, :-1]) & (ordered[:, 1:] != EMPTY)
+    inside = (keys >= least) & (keys < bound)
+    return bool((inside | ~used).all() and not twice.any() and not (counted & ~used).any())
 
 
 def _within(numbers: NDArray[Any], least: float, bound: float) -> bool:

@@ -255,6 +255,10 @@ class GenerativeModel:
         """Whether a place exists, from a file."""
         return bool(numbers[0])
 
+    def fits(self, where: Any, value: Any, places: int) -> bool:
+        """Whether `put` can take this: the next place comes, or the last one goes."""
+        return where == (places if value else places - 1)
+
     def touched(self, where: int) -> Iterable[int]:
         """The place itself."""
         return (where,)

@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import CogmapError
 
 GrowthKind = Literal["time", "sight", "position", "place", "bind", "unbind", "retract"]
 
@@ -35,3 +40,34 @@ class GrowthEvent:
     source: int | None = None
     action: int | None = None
     sensor: str | None = None
+
+
+def check_growth(rows: NDArray[Any], *, places: int, actions: int, sensors: int) -> None:
+    """Refuse what is no log of growth of a map with so many places.
+
+    Args:
+        rows: `[events, 7]` step, kind, index, source, action, numbers of label and sensor; -1 for None.
+        places, actions, sensors: how many there are.
+
+    Raises:
+        CogmapError: a number is out of range, or what came and went does not leave so many places.
+    """
+    fits = rows.ndim == 2 and rows.shape[1] == 7 and rows.dtype.kind == "i" and bool((rows >= -1).all())
+    fits = fits and bool((rows[:, :3] >= 0).all() and (rows[:, 1] < len(KINDS)).all())
+    fits = fits and bool((rows[:, 4] < actions).all() and (rows[:, 6] < sensors).all())
+    fits = fits and bool((np.diff(rows[:, 0]) >= 0).all())
+    if not (fits and _size_after(rows) == places):
+        raise CogmapError("map: the log of growth is none of this map; save it again")
+
+
+def _size_after(rows: NDArray[Any]) -> int:
+    """How many places there are after these events; -1 where one is about a place that is not there."""
+    size = 0
+    of_places = rows[rows[:, 1] >= KINDS.index("place")]
+    for kind, index, source in of_places[:, 1:4].tolist():
+        what = KINDS[kind]
+        fits = index == size if what == "place" else index <= size if what == "retract" else index < size
+        if not fits or source >= size + (what == "place"):
+            return -1
+        size += 1 if what == "place" else -index if what == "retract" else 0
+    return size

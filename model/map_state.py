@@ -12,7 +12,7 @@ from .change_rows import change_arrays, restore_changes
 from .domain import Domain
 from .errors import CogmapError
 from .factors import parts_of
-from .growth_event import KINDS, GrowthEvent
+from .growth_event import KINDS, GrowthEvent, check_growth
 from .readable_map import ReadableMap
 
 Arrays = dict[str, NDArray[Any]]
@@ -37,20 +37,23 @@ def restore_map(map_: ReadableMap, header: Mapping[str, Any], arrays: Mapping[st
         CogmapError: the arrays do not fit one another or the labels, or hold numbers out of range.
         KeyError: an array, or what a factor has to keep, is missing.
     """
+    places = header["places"]
+    _check_places(map_, places, arrays)
     for factor in map_.factors:
-        factor.restore(header["factors"][factor.name], arrays, header["places"])
-    map_.resize(header["places"])
+        factor.restore(header["factors"][factor.name], arrays, places)
+    map_.resize(places)
     map_.visits.restore(parts_of(map_.visits, arrays))
     growth = arrays["growth"]
-    if (
-        growth.ndim != 2
-        or growth.shape[1] != 7
-        or growth.dtype.kind != "i"
-        or not ((growth[:, 1] >= 0) & (growth[:, 1] < len(KINDS))).all()
-    ):
-        raise CogmapError("map: the log of growth has kinds that are none; save it again")
+    check_growth(growth, places=places, actions=len(map_.motions), sensors=len(map_.sensors))
     map_.growth.extend(_events(map_, growth))
-    restore_changes(map_.changes, arrays, map_.stores, map_.growth)
+    restore_changes(map_.changes, arrays, map_.stores, map_.growth, places=places)
+
+
+def _check_places(map_: ReadableMap, places: Any, arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Refuse a number of places that the arrays do not have, before there is room made for them."""
+    rows = len(arrays[f"{map_.transitions.sensed.name}.values"])
+    if not isinstance(places, int) or isinstance(places, bool) or not 1 <= places == rows:
+        raise CogmapError(f"map: it has {places!r} places, and what is known of {rows}; save it again")
 
 
 def _rows(map_: ReadableMap) -> NDArray[np.int64]:

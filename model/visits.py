@@ -60,6 +60,10 @@ class Visits:
         """Whether it was visited, from a file."""
         return bool(numbers[0])
 
+    def fits(self, where: Any, value: Any, places: int) -> bool:
+        """Whether `put` can take this, where there are so many places."""
+        return isinstance(where, int) and 0 <= where < places
+
     def touched(self, where: int) -> Iterable[int]:
         """The place itself."""
         return (where,)

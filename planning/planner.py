@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..model import CogmapError, Motions
 from .choices import Choice, Outward
-from .local import LocalCache, LocalModel, MapView, Preferences, local_model
+from .local import LocalCache, LocalModel, MapHypotheses, MapView, Preferences, local_model
 from .plan import Plan, policy_posterior
 from .policies import MapGuided, PolicyGenerator
 from .rollout import evaluate
@@ -79,6 +79,7 @@ class Planner:
         information_weight: float = 1.0,
         starts: int = 32,
         cache: LocalCache | None = None,
+        structure: MapHypotheses | None = None,
     ) -> Plan:
         """Cut the local model out of a map, make policies, evaluate them, choose one.
 
@@ -95,6 +96,7 @@ class Planner:
             information_weight: weight of every information gain.
             starts: places to set out from, at most.
             cache: of the map, kept from plan to plan.
+            structure: hypotheses about the map, which policies may tell apart.
 
         Raises:
             CogmapError: what `local_model`, the generator or `policy_posterior` raise.
@@ -111,6 +113,7 @@ class Planner:
             starts=starts,
             cache=cache,
             beyond=self.policies.beyond,
+            structure=structure,
         )
         return self._decide(model, precision, rng)
 

@@ -37,11 +37,11 @@ def steps_of(model: LocalModel, policy: Sequence[int]) -> list[Step]:
     belief: list[float] = model.belief.tolist()
     visits, reached = [0.0 for _ in places], [0.0 for _ in places]
     steps: list[Step] = []
-    for action in policy:
+    for t, action in enumerate(policy):
         after = predicted_places(model, belief, action)
         more = [visits[s] + after[s] for s in places]
         likelier = [max(reached[s], after[s]) for s in places]
-        steps.append(Step(model, action, belief, after, visits, more, reached, likelier))
+        steps.append(Step(model, action, belief, after, visits, more, reached, likelier, policy[: t + 1]))
         belief, visits, reached = after, more, likelier
     return steps
 

@@ -171,7 +171,7 @@ NOT_SAVED: dict[str, tuple[bytes, str]] = {
     "one array": (npy(), "a single array"),
     "no header": (packed({"a": np.arange(3)}), "no header"),
     "no arrays": (packed({}), "no header"),
-    "a header of objects": (packed({"header": np.array([{"a": 1}], dtype=object)}), "no saved agent, or truncated"),
+    "a header of objects": (packed({"header": np.array([{"a": 1}], dtype=object)}), "no array of numbers"),
     "a header of text": (headed("{"), "no header"),
     "a header of numbers": (headed([1, 2]), "no header"),
     "a header of None": (headed(None), "no header"),
@@ -244,12 +244,10 @@ ARRAY_DAMAGE: dict[str, Callable[[np.ndarray], np.ndarray | None]] = {
     "NaN": lambda array: array * np.nan,
     "below": lambda array: np.full_like(array, -7) if array.dtype.kind != "b" else array[:0],
 }
-WINDOW_DAMAGE = ("gone", "half", "deeper", "a number")  # its shapes are checked, not its numbers
-PAIRWISE = {f"state.belief.pairwise.{i}" for i in range(3)}
-HARMLESS = {  # what no further step reads, or what could have been so
-    "half": {"visits.order", "changes.marks"},
-    "below": {"state.belief.log_likelihood", *PAIRWISE},
-    "NaN": {"state.belief.pairwise.2"},
+MAY_PASS = {  # what could have been so
+    ("half", "visits.order"),
+    ("half", "changes.marks"),
+    ("below", "state.belief.log_likelihood"),
 }
 
 
@@ -259,17 +257,17 @@ def test_damaged_arrays_are_refused(damage: str, saved: Path, tmp_path: Path) ->
         arrays = {name: file[name] for name in file.files}
     path = tmp_path / "damaged.npz"
     for name, array in arrays.items():
-        if name == "header" or (name.startswith("state.window.") and damage not in WINDOW_DAMAGE):
+        if name == "header":
             continue
-        if name.startswith("state.window.0.tables") and damage != "gone":  # the oldest slice gives its joint only
-            continue
+        if name.startswith("state.window.0.tables") and damage in ("half", "deeper", "a number"):
+            continue  # the oldest slice gives its joint only
         damaged = ARRAY_DAMAGE[damage](array)
         rest = {other: values for other, values in arrays.items() if other != name}
         path.write_bytes(packed(rest if damaged is None else {**rest, name: damaged}))
-        if name in HARMLESS.get(damage, ()) or np.array_equal(damaged, array):  # type: ignore[arg-type]
+        if np.array_equal(damaged, array):  # type: ignore[arg-type]
             assert Agent.load(path).steps == 12
-        else:
-            assert refused_in_one_line(path), name
+        elif not refused_in_one_line(path):
+            assert (damage, name) in MAY_PASS, name
 
 
 def test_belief_and_window_must_be_about_the_map(saved: Path, tmp_path: Path) -> None:
@@ -383,13 +381,18 @@ OF_BEFORE = Path(__file__).parent / "saved"
 def test_an_agent_saved_by_an_earlier_version_walks_on(name: str) -> None:
     agent = Agent.load(OF_BEFORE / f"schema2_{name}.npz")
     steps = json.loads((OF_BEFORE / f"schema2_{name}.json").read_text())
+    taken: dict[str, int] = {}
     for sight, open_, action, evidence, moved, places, G, retracted, learned in steps:
-        assert agent.step({"sight": decode(sight), "open": open_}) == action
+        chosen = agent.step({"sight": decode(sight), "open": open_, **taken})
         record = agent.trace[-1]
         assert record.evidence == pytest.approx(evidence, abs=1e-9)
         assert record.moved == pytest.approx(moved, abs=1e-9)
         assert record.places == pytest.approx(dict(places), abs=1e-9)
-        assert record.G["G"] == pytest.approx(G, abs=1e-9)
         assert record.retracted == retracted
         assert sum(update.amount for update in record.learned) == pytest.approx(learned, abs=1e-9)
+        if name == "static":  # what is worth more, further off, is among its policies now; it is led as it went then
+            taken = {"taken": action}
+        else:
+            assert chosen == action
+            assert record.G["G"] == pytest.approx(G, abs=1e-9)
     assert_agent_is_sound(agent)

@@ -12,8 +12,10 @@ import pytest
 from cogmap.agent import Agent
 from cogmap.experiments import Parts
 from cogmap.experiments.cli import app
+from cogmap.experiments.cli import explore as command
 from cogmap.worlds import MAZES, format_maze, hall
 from command_line import cogmap, heeding_ctrl_c
+from matplotlib.figure import Figure
 from typer.testing import CliRunner
 
 COMMAND = [sys.executable, "-c", "from cogmap.experiments.cli import main; main()"]
@@ -75,13 +77,13 @@ def test_sights_and_formats_of_files() -> None:
             }
         )
     )
-    for sights, different in (("distinct", 4), ("ways", 2), ("1", 1)):
+    for sights, different in (("distinct", 4), ("ways", 2)):
         result = cogmap("explore", "ways.json", "--sights", sights)
         assert result.exit_code == 0
         assert f"{different} sight" in result.stdout
     Path("walls.txt").write_text("####\n#..#\n####\n")
     assert cogmap("explore", "walls.txt").exit_code == 2
-    assert "2 rooms" in cogmap("explore", "walls.txt", "--format", "ascii").stdout
+    assert cogmap("explore", "walls.txt", "--format", "ascii", "--sights", "1", "--runs", 1).exit_code == 0
 
 
 @pytest.mark.parametrize(
@@ -296,3 +298,32 @@ def test_the_maze_that_is_read_is_not_written(command: list[str]) -> None:
     assert refused.exit_code == 2
     assert "is the file that is read; write to another" in refused.stderr
     assert Path("house.txt").read_text() == "hall attic\n"
+
+
+def test_of_a_large_world_the_part_walked_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[int] = []
+    monkeypatch.setattr(command, "PARTLY_DRAWN", 8)
+    monkeypatch.setattr(
+        "cogmap.views.explore_figure", lambda chart, *_, **__: drawn.append(len(chart.places)) or Figure()
+    )
+    assert cogmap("explore", "3x3", "--max-steps", 1, "--out", "x.svg").exit_code == 1
+    assert len(drawn) == 1
+    assert drawn[0] < 9
+    monkeypatch.setattr(command, "MOST_DRAWN", 3)
+    result = cogmap("explore", "3x3", "--max-steps", 1, "--out", "y.svg")
+    assert "No picture: more than 3 rooms" in result.stdout
+    assert not Path("y.svg").exists()
+    assert len(drawn) == 1
+
+
+def test_what_is_too_large_is_left_out_and_said() -> None:
+    Path("big.txt").write_text(format_maze(hall(142, 142, sights=None)))
+    started = cogmap("explore", "big.txt", "--max-steps", 2, "--runs", 1, "--json", "x.json")
+    assert started.exit_code == 0
+    row = json.loads(Path("x.json").read_text())["runs"][0]
+    assert row["oracle_steps"] is None
+    assert "frontier_steps" not in row
+    assert row["not_worked_out"] == "oracle_steps, frontier_steps: more than 20000 places"
+    refused = cogmap("explore", "big.txt", "--trace", "x.trace")
+    assert refused.exit_code == 2
+    assert "more than 20000 places" in refused.stderr

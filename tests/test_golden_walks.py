@@ -91,7 +91,7 @@ PERTURBED: dict[str, Callable[[Facts], Any]] = {
     "left_out": lambda facts: facts.update(left_out=None),
     "probability": lambda facts: facts.update(probability=facts["probability"] + 1e-8),
     "G[collision]": lambda facts: facts["G"].update(collision=facts["G"]["collision"] + 1e-8),
-    "G[utility]": lambda facts: facts["G"].pop("utility"),
+    "G[sight_information]": lambda facts: facts["G"].pop("sight_information"),
     "learned[B_s ": lambda facts: facts["learned"].pop(first(c for c in facts["learned"] if c.startswith("B_s"))),
     "learned[A_o 3 1 -1]": lambda facts: facts["learned"].update({"A_o 3 1 -1": 1e-8}),
     "grown[0][1]": lambda facts: facts["grown"][0].__setitem__(1, 1000),

@@ -479,7 +479,7 @@ def test_files_that_are_too_large_or_not_graphs_by_name_are_not_read(
     with pytest.raises(WorldError, match="no graph file by its name"):
         read_graph(written(tmp_path, "a b", "a.txt"))
     monkeypatch.setattr("cogmap.worlds.graph.files.LARGEST", 10)
-    with pytest.raises(WorldError, match="graph files have at most 10"):
+    with pytest.raises(WorldError, match="such a file has 10 at most"):
         load_world(written(tmp_path, square()))
     (tmp_path / "d.json").mkdir()
     with pytest.raises(WorldError, match="is a directory"):

@@ -7,6 +7,7 @@ from cogmap.worlds import (
     CanClose,
     CanDisplace,
     Chart,
+    ChartPart,
     HasChart,
     World,
     WorldError,
@@ -58,3 +59,21 @@ def test_successors_of_a_maze_are_its_true_transitions() -> None:
             assert ahead["stay"] == room
     with pytest.raises(WorldError, match="no room"):
         MAZES["t_maze"].successors((1, 0))
+
+
+@pytest.mark.parametrize("whole", [MAZES["3x3"], torus(3, 3).chart], ids=lambda chart: chart.name)
+def test_a_part_of_a_chart_is_a_chart(whole: Chart) -> None:
+    part = ChartPart.around(whole, whole.places[:1])
+    assert isinstance(part, Chart)
+    beside = {*whole.successors(whole.places[0]).values()}
+    assert set(part.places) == beside
+    assert part.exits(whole.places[0]) == whole.exits(whole.places[0])
+    for place in part.places:
+        assert set(part.successors(place).values()) <= beside
+        assert part.sights[place] == whole.sights[place]
+        assert part.find(place) == place
+        assert part.length(place, "up") == whole.length(place, "up")
+    assert (part.name, part.motions) == (whole.name, whole.motions)
+    assert (part.positions is None) == (whole.positions is None)
+    with pytest.raises(WorldError, match="outside this part"):
+        part.find(next(place for place in whole.places if place not in beside))

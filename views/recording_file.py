@@ -10,7 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, cast
 
-from ..model import CogmapError, write_whole
+from ..model import CogmapError, parse_json, read_file, unpack_gzip, write_whole
 from ..planning import TERMS
 from .recording_frames import term_json
 
@@ -39,12 +39,14 @@ def read(path: str | PathLike[str]) -> dict[str, Any]:
         CogmapError: no such file, no recording, truncated, or of another schema.
     """
     try:
-        content = Path(path).read_bytes()
-        data = json.loads(gzip.decompress(content) if content[:2] == b"\x1f\x8b" else content)
+        content = read_file(path)
+        data = parse_json(unpack_gzip(path, content) if content[:2] == b"\x1f\x8b" else content)
     except FileNotFoundError as error:
         raise CogmapError(f"recording: there is no file {path}; give one that --trace wrote") from error
-    except (OSError, EOFError, RecursionError, ValueError, zlib.error) as error:
-        raise CogmapError(f"recording: {path} is no recording, or truncated; give a file that --trace wrote") from error
+    except (OSError, EOFError, MemoryError, RecursionError, ValueError, zlib.error) as error:
+        why = " ".join(str(error).split())[:200]
+        truncated = f"recording: {path} is no recording, or truncated ({why})"
+        raise CogmapError(f"{truncated}; give a file that --trace wrote") from error
     if not isinstance(data, dict) or cast(dict[str, Any], data).get("format") != FORMAT:
         raise CogmapError(f"recording: {path} is JSON, but no recording; give a file that --trace wrote")
     found: dict[str, Any] = data

@@ -16,6 +16,7 @@ from .maze import Door, Label, Maze, Position
 from .motions import GRID, Motions
 from .noise import NOISES, NoisyWorld
 from .oracle import MOST_EXACT, MOST_TOUR, MOST_WALKED, covering_steps, covering_walk, frontier_walk, tour
+from .part import ChartPart
 from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place, World, offered, place_of
 from .routes import shortest_path, walk_length
 from .text import format_maze, parse_maze
@@ -34,6 +35,7 @@ __all__ = [
     "CanClose",
     "CanDisplace",
     "Chart",
+    "ChartPart",
     "Door",
     "GraphWorld",
     "HasChart",

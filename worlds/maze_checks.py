@@ -31,11 +31,11 @@ class UnreachableError(WorldError):
     """
 
     def __init__(self, where: str, rooms: tuple[Position, ...]) -> None:
-        super().__init__(where, rooms)
+        super().__init__(f"{where}: {_name_rooms(rooms)} cannot be reached from the rest; join or remove them")
         self.where, self.rooms = where, rooms
 
-    def __str__(self) -> str:
-        return f"{self.where}: {_name_rooms(self.rooms)} cannot be reached from the rest; join or remove them"
+    def __reduce__(self) -> tuple[type[UnreachableError], tuple[str, tuple[Position, ...]]]:
+        return UnreachableError, (self.where, self.rooms)
 
 
 def unreachable(rooms: tuple[Position, ...], walls: frozenset[Door]) -> tuple[Position, ...]:

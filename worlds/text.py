@@ -10,13 +10,18 @@ labels has a wall wherever dashes stand:
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from .errors import WorldError
 from .maze import Maze
 from .maze_checks import LARGEST_LABEL, Door, Label, Position, UnreachableError
+
+LARGEST = 128 * 2**20
+"""Bytes of the largest text that is read."""
 
 EMPTY = frozenset({".", "-1"})
 _NUMBER = re.compile(r"[0-9]+")
@@ -25,22 +30,30 @@ _DASHES = re.compile(r"--+")
 _HASHES = re.compile(r"[#.]*#[#.]*")
 
 
-def read_text(path: str | Path) -> str:
+def read_text(path: str | Path, *, most: int = LARGEST) -> str:
     """What a text file has in it.
 
     Raises:
-        WorldError: the file cannot be read, or is not UTF-8 text.
+        WorldError: the file cannot be read, has more than `most` bytes, or is not UTF-8 text.
     """
     path = Path(path)
     try:
         if path.is_dir():
             raise WorldError(f"{path} is a directory; give a maze text file")
-        if path.exists() and not path.is_file():
-            raise WorldError(f"{path} is not a regular file; give a maze text file")
-        return path.read_text(encoding="utf-8-sig")
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))  # a pipe would wait for ever
+        with os.fdopen(handle, "rb") as file:
+            size = os.fstat(handle).st_size
+            if not stat.S_ISREG(os.fstat(handle).st_mode):
+                raise WorldError(f"{path} is not a regular file; give a maze text file")
+            content = file.read(most + 1) if size <= most else b""
+        if size > most or len(content) > most:
+            raise WorldError(f"{path} has {max(size, len(content)):,} bytes; such a file has {most:,} at most")
+        return content.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
     except UnicodeDecodeError as error:
         raise WorldError(f"{path} is not text (byte {error.start} is not UTF-8); give a maze text file") from error
     except (OSError, ValueError) as error:
+        if isinstance(error, WorldError):
+            raise
         why = getattr(error, "strerror", None) or error
         raise WorldError(f"{path} cannot be read: {why}; give a maze text file") from error
 

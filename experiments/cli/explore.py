@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -49,6 +50,8 @@ Out = Annotated[
     typer.Option(metavar="PICTURE", help="Where the picture goes; without --runs it is WORLD.png unless given."),
 ]
 NOT_COMPLETE = 1
+PARTLY_DRAWN, MOST_DRAWN = 2_000, 20_000
+"""Rooms of a world of which the part walked is drawn alone, and of that part: a thousand take some seconds."""
 
 
 def explore_command(
@@ -121,11 +124,15 @@ def explore_command(
         write_json(json, results[0] if len(results) == 1 else results)
     if done is not None and save is not None:
         done.walker.save(save)
-    if done is not None and picture is not None:
+    shown = None if done is None or picture is None else _drawn(chart, done.path)
+    if done is not None and picture is not None and shown is None:
+        say(f"No picture: more than {MOST_DRAWN} rooms were walked through, or stand beside.")
+        picture = None
+    if done is not None and picture is not None and shown is not None:
         known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
         with progress("drawing", 1):
-            title = f"{chart.name}, {agent}, seed {seed}"
-            picture = write_picture(picture, explore_figure(chart, done.path, title=title, **known), new=out is None)
+            title = f"{chart.name}{'' if shown is chart else ' (the part walked)'}, {agent}, seed {seed}"
+            picture = write_picture(picture, explore_figure(shown, done.path, title=title, **known), new=out is None)
     say_saved(runs=json, agent=save, trace=trace, picture=picture)
     if done is not None and not sweep and not done.finished and steps is None:
         say(f"Not complete after {len(done.path) - 1} steps; allow more with --max-steps.", style="bold red")
@@ -164,6 +171,16 @@ def _walk(place: Any, chart: Chart, seed: int, parts: Parts, walked: Any, trace:
         done = walk(place, seed, agent=parts, watch=watch, **walked)
     tracing.save()
     return done
+
+
+def _drawn(chart: Chart, path: Sequence[Any]) -> Chart | None:
+    """What to draw of a world: all of it, or the part walked of a large one; None where that is too large as well."""
+    from ...worlds import ChartPart
+
+    if len(chart.places) <= PARTLY_DRAWN:
+        return chart
+    part = ChartPart.around(chart, path)
+    return part if len(part.places) <= MOST_DRAWN else None
 
 
 def _show_sweeps(results: list[dict[str, Any]]) -> None:

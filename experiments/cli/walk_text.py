@@ -39,7 +39,7 @@ def show_walk(chart: Chart, walk: Walk, *, agent: str) -> None:
         "complete after": run.steps_to_complete,
         "shortest possible (oracle)": run.oracle_steps,
     }
-    if run.frontier_steps is not None:
+    if run.frontier_steps is not None or run.not_worked_out is not None:
         steps["nearest-frontier search"] = run.frontier_steps
     facts: dict[str, Any] = {name: "-" if value is None else count(value, "step") for name, value in steps.items()}
     facts["time"] = f"{run.seconds:.2f} s"
@@ -63,8 +63,9 @@ def _maze(maze: Maze, path: Sequence[Place], width: int) -> Text:
     """Every room in its colour, with its label and the step of the first visit."""
     first = {room: step for step, room in reversed(list(enumerate(path)))}
     rows, columns = maze.shape
-    words = [str(word) for word in (*maze.sights.values(), *first.values())]
-    cell = min(max(map(cell_len, words)) + 2, 10)
+    few = 3 * columns <= width  # a cell takes three signs or more
+    words = [str(word) for word in (*maze.sights.values(), *first.values())] if few else []
+    cell = min(max(map(cell_len, words), default=1) + 2, 10)
     if columns * cell > width:
         return Text(f"(too wide to draw here: {columns} columns; see the picture)", style="dim")
     text = Text(no_wrap=True)

@@ -86,6 +86,8 @@ class Sight(Sensor):
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over labels and counts."""
         self.labels.extend(decode(label) for label in state["labels"])
+        if len(self.labels) < len(state["labels"]):
+            raise CogmapError(f"map: two labels of {self.name} are the same; save it again")
         self.table.outcomes = len(self.labels) + 1
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=len(self.labels))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..changes import Store
 from ..column import Column
 from ..dirichlet import EMPTY, SparseDirichlet
+from ..errors import CogmapError
 from ..information import information
 from ..percept import Percept
 from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table, parts_of
@@ -73,7 +74,11 @@ class Transition(ModelFactor):
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over the arrays."""
         self.grow(places)
-        self.table.restore(parts_of(self.table, arrays), outcomes=places)
+        self.table.restore(parts_of(self.table, arrays), outcomes=places, least=ELSEWHERE)
+        keys, alpha, _ = self.table.concentration(np.arange(places * len(self.motions)))
+        stays = (keys == np.arange(places).repeat(len(self.motions))[:, None]) & (alpha > 0.0)
+        if not stays.any(axis=1).all():
+            raise CogmapError("map: an action leads nowhere, not even back; save it again")
         self.sensed.restore(parts_of(self.sensed, arrays), least=UNKNOWN, bound=BLOCKED + 1)
         self.walked.restore(parts_of(self.walked, arrays))
 

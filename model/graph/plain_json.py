@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import CogmapError
 from ..labels import decode, encode, identity, plain
+from ..reading import parse_json
 from .conditional import ConditionalTable
 from .factors import Factor, SparseValues, sparse_values
 from .structure import GraphStructure
@@ -59,7 +60,8 @@ def graph_from_dict(values: Mapping[str, Any], empty: AnyGraph) -> AnyGraph:
     try:
         return _restored(values, empty)
     except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
-        raise CogmapError(f"graph: the JSON is damaged ({type(error).__name__}: {error}); export it again") from error
+        why = " ".join(f"{type(error).__name__}: {error}".split())[:300]
+        raise CogmapError(f"graph: the JSON is damaged ({why}); export it again") from error
 
 
 def graph_to_json(graph: GraphStructure, *, indent: int | None = None) -> str:
@@ -74,8 +76,8 @@ def graph_from_json(text: str, empty: AnyGraph) -> AnyGraph:
         CogmapError: what `graph_from_dict` raises, or the text is no JSON.
     """
     try:
-        values = json.loads(text)
-    except (RecursionError, TypeError, ValueError) as error:
+        values = parse_json(text)
+    except (AttributeError, TypeError, ValueError) as error:
         raise CogmapError(f"graph: this is no JSON ({error}); give what to_json wrote") from error
     return graph_from_dict(values, empty)
 
@@ -120,10 +122,14 @@ def _sparse(values: SparseValues) -> dict[str, Any]:
 def _restored(values: Mapping[str, Any], graph: AnyGraph) -> AnyGraph:
     for part in values["variables"]:
         domain = tuple(decode(label) for label in part["domain"])
+        if not (type(part["time"]) in (int, type(None)) and isinstance(part["observed"], bool)):
+            raise CogmapError(f"time and observed of {part['name']!r} are {part['time']!r}, {part['observed']!r}")
         graph.variable(part["name"], domain, time=part["time"], observed=part["observed"])
     tables = [_table(part) for part in values["tables"]]
     for part in values["factors"]:
         scope = [graph.variable_named(name) for name in part["scope"]]
+        if not all(isinstance(part[name], str) for name in ("name", "kind", "equation")):
+            raise CogmapError(f"a factor is called {part['name']!r}")
         table = None if part["table"] is None else tables[part["table"]]
         numbers = _numbers(part, [variable.cardinality for variable in scope])
         graph.factor(part["name"], scope, numbers, kind=part["kind"], equation=part["equation"], table=table)

@@ -4,14 +4,18 @@ from .cache import LocalCache
 from .cut import Surroundings, local_model
 from .model import LocalModel
 from .preferences import Preferences
+from .structure import MapHypotheses, State, Structure
 from .transitions import Transitions
 from .view import MapView
 
 __all__ = [
     "LocalCache",
     "LocalModel",
+    "MapHypotheses",
     "MapView",
     "Preferences",
+    "State",
+    "Structure",
     "Surroundings",
     "Transitions",
     "local_model",

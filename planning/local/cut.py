@@ -11,6 +11,7 @@ from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
 from .cache import LocalCache, PlaceRows
 from .model import Floats, Ints, LocalModel
 from .preferences import Preferences
+from .structure import MapHypotheses, Structure
 from .transitions import Transitions, likeliest
 from .view import MapView
 
@@ -27,6 +28,7 @@ class Surroundings:
         preferences: what is hoped for.
         open: for each action, whether its way is sensed open now.
         look_ahead: steps that policies look ahead.
+        structure: hypotheses about the map, side by side; None where there is but one.
     """
 
     map: MapView
@@ -36,6 +38,7 @@ class Surroundings:
     preferences: Preferences
     open: Sequence[bool]
     look_ahead: int
+    structure: Structure | None = None
 
     def sensed(self) -> Ints:
         """`[n, K]` where each action most probably leads to from the starts, as sensed now; see `LocalCache.likely`."""
@@ -62,6 +65,7 @@ def local_model(
     starts: int = 32,
     cache: LocalCache | None = None,
     beyond: Callable[[Surroundings], Ints] = nothing_beyond,
+    structure: MapHypotheses | None = None,
 ) -> LocalModel:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
@@ -70,7 +74,8 @@ def local_model(
     worked out again.
 
     Raises:
-        CogmapError: the cache is of another map or tells of fewer visits than `look_ahead`, or `starts` is below one.
+        CogmapError: the cache is of another map or tells of fewer visits than `look_ahead`, `starts` is below one, or
+            the hypotheses have weights that are none.
     """
     cache = cache or LocalCache(map_, look_ahead)
     cache.check(map_, look_ahead)
@@ -80,7 +85,8 @@ def local_model(
     preferences = preferences or Preferences()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
     near = cache.within(places, look_ahead)
-    far = beyond(Surroundings(map_, cache, places, near, preferences, open_, look_ahead))
+    apart = Structure.of(structure)
+    far = beyond(Surroundings(map_, cache, places, near, preferences, open_, look_ahead, apart))
     within = np.union1d(near, far) if len(far) else near
     at, local = within.searchsorted(places), np.append(within, ELSEWHERE)
     q = np.zeros(len(local))
@@ -118,6 +124,7 @@ def local_model(
         discount=discount,
         information_weight=information_weight,
         dropped=dropped,
+        structure=apart,
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model import CogmapError, Motions
+from .structure import Structure
 from .transitions import Transitions
 
 Floats = NDArray[np.float64]
@@ -46,6 +47,7 @@ class LocalModel:
         discount: weight of each step of a policy relative to the one before, above 0, at most 1.
         information_weight: weight of every information gain beside utility and costs, 0 or more.
         dropped: belief in places that were left out, before `belief` was made to sum to one again.
+        structure: hypotheses about the map, side by side; None where there is but one.
     """
 
     motions: Motions
@@ -66,6 +68,7 @@ class LocalModel:
     discount: float = 1.0
     information_weight: float = 1.0
     dropped: float = 0.0
+    structure: Structure | None = None
 
     @property
     def utility(self) -> Floats:

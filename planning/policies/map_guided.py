@@ -13,14 +13,16 @@ from ...model import CogmapError, Motions
 from ..local import LocalModel, Surroundings
 from .base import MAX_POLICIES, Ints, Policies, PolicyGenerator, padded
 from .far_ways import MORE, far_ways
+from .telling import telling_walks
 
 Floats = NDArray[np.float64]
 LEAST = 1e-3  # nats; a first visit that is worth less is worth nothing
 SHARE = 0.1  # nor is one below this share of the greatest value in the model
-GREAT = 0.5  # share of the greatest value in reach that a start must have within look-ahead, or it looks beyond
+GREAT = 0.5  # share of the greatest value that a start must have within look-ahead, or it looks beyond
 HYPOTHESES = 8  # places that the agent may be at, at most
 HYPOTHESIS = 0.05  # and the belief each needs
 BEYOND = 4  # places of great value to head for when none is within look-ahead
+AFTER = 8  # prefixes kept a level, of those that go on after a walk that tells hypotheses apart
 BLOCKED = 0.6  # P(blocked) from which an unknown way is not tried
 
 Path = tuple[int, ...]
@@ -45,6 +47,8 @@ class MapGuided(PolicyGenerator):
     - If a start has no place of great value within `look_ahead`, the shortest paths to the nearest places
       beyond that have one are added, so L may exceed `look_ahead`; and always those to the nearest places beyond that
       are worth more than all that is nearer.
+    - Where hypotheses about the map are open, the walks that tell them apart are added (`telling_walks`), however far,
+      each going on as is best in the map.
 
     `Policies.cut` is the number of prefixes that the beam dropped.
 
@@ -74,6 +78,9 @@ class MapGuided(PolicyGenerator):
             cut += dropped
             if MORE * best < skeleton.greatest:
                 paths += _beyond(skeleton, start, best)
+        if model.structure is not None:
+            for path in telling_walks(model.structure, model.motions):
+                paths += _telling(skeleton, starts[0], path, model.look_ahead)
         return Policies(padded(paths, stay=model.motions.stay, length=model.look_ahead), cut)
 
     def count(self, motions: Motions, look_ahead: int) -> int:
@@ -84,7 +91,11 @@ class MapGuided(PolicyGenerator):
         return min(self.beam, max(1, (MAX_POLICIES - 1) // (look_ahead * len(motions))))
 
     def beyond(self, around: Surroundings) -> Ints:
-        return far_ways(around)
+        far = far_ways(around)
+        if around.structure is None:
+            return far
+        walks = telling_walks(around.structure, around.map.motions)
+        return np.union1d(far, [place for walk in walks for place in _along(around, walk)]).astype(np.int64)
 
 
 def first_visit_value(model: LocalModel) -> Floats:
@@ -101,8 +112,8 @@ class _Skeleton:
     """The map as lists, which are quicker than arrays one element at a time.
 
     `ways[i]` holds (action, place it leads to, risk in nats), `unknown[i]` actions that lead nobody knows
-    where, `bit[i]` is the place's bit (0: worth nothing), `value[i]` of a first visit, the `greatest` of them, and
-    `utility[i]` are in nats.
+    where, `bit[i]` is the place's bit (0: worth nothing), `value[i]` of a first visit, the `greatest` of them, the
+    `floor` below which a first visit is worth nothing, and `utility[i]` are in nats.
     """
 
     ways: list[list[tuple[int, int, float]]]
@@ -111,6 +122,7 @@ class _Skeleton:
     value: list[float]
     utility: list[float]
     greatest: float
+    floor: float
 
     @classmethod
     def of(cls, model: LocalModel) -> _Skeleton:
@@ -130,7 +142,7 @@ class _Skeleton:
         greatest = float(value.max())
         floor = max(SHARE * greatest, LEAST)
         bit = [1 << i if worth > floor else 0 for i, worth in enumerate(value.tolist())]
-        return cls(ways, unknown, bit, value.tolist(), model.utility.tolist(), greatest)
+        return cls(ways, unknown, bit, value.tolist(), model.utility.tolist(), greatest, floor)
 
 
 def _starts(model: LocalModel) -> list[int]:
@@ -202,11 +214,31 @@ def _into_the_unknown(skeleton: _Skeleton, level: list[Prefix]) -> list[Path]:
     return [(*path, action) for place, path in best.items() for action in skeleton.unknown[place]]
 
 
-def _beyond(skeleton: _Skeleton, start: int, best: float) -> list[Path]:
-    """Shortest paths to the nearest places of great value; if there are none, into the nearest unknown ways.
+def _along(around: Surroundings, walk: Path) -> list[int]:
+    """The places on a walk from where the agent may be, as far as the map knows it."""
+    at, found = around.starts, list[int]()
+    for i, action in enumerate(walk):
+        ahead = around.cache.likely(at) if i else around.sensed()
+        at = np.unique(ahead[:, action])
+        at = at[at >= 0]
+        found += at.tolist()
+    return found
 
-    Great is half the greatest value that can be reached. Where one of great value is near (`best`), to those that are
-    worth more than all that is nearer.
+
+def _telling(skeleton: _Skeleton, start: int, path: Path, look_ahead: int) -> list[Path]:
+    """A walk that tells hypotheses apart, and how it may go on from where it leads to."""
+    at = start
+    for action in path:
+        at = next((after for way, after, _ in skeleton.ways[at] if way == action), at)
+    left = look_ahead - len(path)
+    return [path + after for after in (_grow(skeleton, at, left, AFTER)[0] if left > 0 else [()])]
+
+
+def _beyond(skeleton: _Skeleton, start: int, best: float) -> list[Path]:
+    """Shortest paths to places that are worth more than all that is nearer.
+
+    Where nothing great is near (`best`), also to the nearest places of great value; if there are none, into the nearest
+    unknown ways.
     """
     shortest: dict[int, Path] = {start: ()}
     queue = [start]
@@ -216,17 +248,18 @@ def _beyond(skeleton: _Skeleton, start: int, best: float) -> list[Path]:
                 shortest[after] = (*shortest[place], action)
                 queue.append(after)
     del shortest[start]
-    great = max(GREAT * max((skeleton.value[place] for place in shortest), default=0.0), LEAST)
+    great, better = max(GREAT * skeleton.greatest, LEAST), _better(skeleton, shortest, best, skeleton.floor)
     if best >= great:
-        return _better(skeleton, shortest, best)
+        return better
     worthy = [path for place, path in shortest.items() if skeleton.value[place] >= great]
     unknown = [(*path, a) for place, path in shortest.items() for a in skeleton.unknown[place]]
-    return (worthy or unknown)[:BEYOND]
+    return better + (worthy or unknown)[:BEYOND] or _better(skeleton, shortest, best, LEAST)
 
 
-def _better(skeleton: _Skeleton, shortest: dict[int, Path], best: float) -> list[Path]:
+def _better(skeleton: _Skeleton, shortest: dict[int, Path], best: float, floor: float) -> list[Path]:
     """The paths to places each of which is worth more than all before it; the last of them where they are many."""
     better: list[Path] = []
+    best = max(best, floor)
     for place, path in shortest.items():
         if skeleton.value[place] > MORE * best:
             best = skeleton.value[place]

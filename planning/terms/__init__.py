@@ -1,4 +1,4 @@
-"""The terms of expected free energy, one a file, and the paper's list of them."""
+"""The terms of expected free energy, one a file, and the list of them."""
 
 from .base import KINDS, Term
 from .collision import Collision
@@ -8,6 +8,7 @@ from .position_information import PositionInformation
 from .rolled import Rollout, Staying
 from .sight_information import SightInformation
 from .state_information import StateInformation
+from .structure_information import StructureInformation
 from .transition_information import TransitionInformation
 from .utility import Utility
 
@@ -16,10 +17,11 @@ TERMS: tuple[Term, ...] = (
     SightInformation(),
     PositionInformation(),
     TransitionInformation(),
+    StructureInformation(),
     Utility(),
     Collision(),
 )
-"""The terms of the paper, in the order in which they are shown."""
+"""The terms of the paper, and one about the map as a whole, in the order in which they are shown."""
 
 __all__ = [
     "KINDS",
@@ -32,6 +34,7 @@ __all__ = [
     "StateInformation",
     "Staying",
     "Step",
+    "StructureInformation",
     "Term",
     "TransitionInformation",
     "Utility",

@@ -22,6 +22,7 @@ class Step:
         visits: the same, this step included.
         reached_before: probability of any visit of each place, up to the step before: the largest belief so far.
         reached: the same, this step included.
+        path: the actions so far, this one included.
     """
 
     model: LocalModel
@@ -32,6 +33,7 @@ class Step:
     visits: Sequence[float]
     reached_before: Sequence[float]
     reached: Sequence[float]
+    path: Sequence[int] = ()
 
 
 def predicted_sights(model: LocalModel, Q: Sequence[float]) -> list[float]:

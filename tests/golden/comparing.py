@@ -11,7 +11,7 @@ from .adapters import Facts
 CLOSE = 1e-9
 """How far a number may be from the recorded one, plus this share of it."""
 
-ABSENT_IS_ZERO = ("belief", "learned")
+ABSENT_IS_ZERO = ("belief", "learned", "G")
 """Facts where what is not listed is zero."""
 
 

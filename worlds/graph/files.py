@@ -16,6 +16,12 @@ from .raw import RawGraph, shown
 LARGEST = 100 * 2**20
 """Bytes of the largest graph file that is read."""
 
+LARGEST_YAML = 16 * 2**20
+"""The same of YAML, which takes long to read."""
+
+MOST = 4_000_000
+"""Nodes and edges in a file; aliases of YAML make many of little text."""
+
 
 def is_graph_file(path: str | Path) -> bool:
     """Whether the name of a file says that it has a graph in it."""
@@ -45,9 +51,7 @@ def read_raw(path: str | Path) -> RawGraph:
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         raise WorldError(f"{path} is no graph file by its name; use one of {', '.join(_READERS)}")
-    if path.is_file() and path.stat().st_size > LARGEST:
-        raise WorldError(f"{path} has {path.stat().st_size} bytes; graph files have at most {LARGEST}")
-    text = read_text(path)
+    text = read_text(path, most=LARGEST_YAML if reader is _read_yaml else LARGEST)
     try:
         return reader(text, path.stem, str(path))
     except RecursionError as error:
@@ -56,9 +60,10 @@ def read_raw(path: str | Path) -> RawGraph:
 
 def _read_json(text: str, name: str, source: str) -> RawGraph:
     try:
+        _check_count(sum(map(text.count, "{[")), source)
         found = json.loads(text)
     except ValueError as error:
-        raise WorldError(f"{source} is no JSON: {error}") from error
+        raise error if isinstance(error, WorldError) else WorldError(f"{source} is no JSON: {error}") from error
     if not isinstance(found, dict) or not isinstance(found.get("nodes"), list):  # pyright: ignore[reportUnknownMemberType]
         raise WorldError(
             f"{source} is no graph: give an object with 'nodes' and 'edges', as nx.node_link_data writes it"
@@ -84,6 +89,9 @@ def _read_json(text: str, name: str, source: str) -> RawGraph:
 def _read_graphml(text: str, name: str, source: str) -> RawGraph:
     import networkx as nx
 
+    if "<!ENTITY" in text:  # a few that speak of one another can stand for any length
+        raise WorldError(f"{source} declares entities; write out what they mean")
+    _check_count(text.count("<node") + text.count("<edge"), source)
     try:
         graph = nx.parse_graphml(text)
     except RecursionError:
@@ -97,13 +105,14 @@ def _read_yaml(text: str, name: str, source: str) -> RawGraph:
     import yaml
 
     try:
-        found = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except (yaml.YAMLError, ValueError) as error:
+        found = yaml.load(text, Loader=_loader())
+    except (yaml.YAMLError, LookupError, TypeError, ValueError) as error:
         raise WorldError(f"{source} is no YAML: {' '.join(str(error).split())}") from error
     whole = found if isinstance(found, dict) else {"nodes": found}  # pyright: ignore[reportUnknownVariableType]
     listed: Any = whole.get("nodes")  # pyright: ignore[reportUnknownMemberType]
     if not isinstance(listed, list):
         raise WorldError(f"{source} is no topological map: give a list 'nodes', as topological_navigation writes it")
+    _check_count(sum(map(_size, listed)), source)  # pyright: ignore[reportUnknownArgumentType]
     nodes: list[tuple[Any, Mapping[str, Any]]] = []
     edges: list[tuple[Any, Any, Mapping[str, Any]]] = []
     for i, entry in enumerate(listed):  # pyright: ignore[reportUnknownVariableType]
@@ -111,9 +120,39 @@ def _read_yaml(text: str, name: str, source: str) -> RawGraph:
         node = _mapping(_mapping(entry, where).get("node", entry), where)
         waypoint = _taken(node, "name", where)
         nodes.append((waypoint, _waypoint(node, where)))
-        for edge in node.get("edges") or ():
+        leading = node.get("edges") or ()
+        if not isinstance(leading, list | tuple):
+            raise WorldError(f"{where}: edges are {shown(leading)}; give a list")
+        for edge in leading:  # pyright: ignore[reportUnknownVariableType]
             edges.append((waypoint, _taken(edge, "node", f"{where}: an edge"), {}))
     return RawGraph(_name(whole, name), source, True, {}, nodes, edges)  # pyright: ignore[reportUnknownMemberType]
+
+
+def _loader() -> Any:
+    """The fast loader of plain values, without merge keys: those of merged mappings double at every level."""
+    import yaml
+
+    base: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+    class Loader(base):
+        def flatten_mapping(self, node: Any) -> None:
+            if any(key.tag == "tag:yaml.org,2002:merge" for key, _ in node.value):
+                raise yaml.YAMLError("merge keys (<<) are not read; write out what they merge")
+            super().flatten_mapping(node)
+
+    return Loader
+
+
+def _size(entry: Any) -> int:
+    """A node of a topological map and its edges."""
+    node = entry.get("node", entry) if isinstance(entry, dict) else None  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+    edges = node.get("edges") if isinstance(node, dict) else None  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+    return 1 + (len(edges) if isinstance(edges, list) else 0)  # pyright: ignore[reportUnknownArgumentType]
+
+
+def _check_count(count: int, source: str) -> None:
+    if count > MOST:
+        raise WorldError(f"{source} has {count:,} nodes and edges or so; {MOST:,} are read at most")
 
 
 def _name(attributes: Mapping[str, Any], name: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from reprlib import repr as shown
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
 _LONGEST = 32  # parts of a list that is a label
+_SURROGATE = re.compile(r"[\ud800-\udfff]")
 
 Attributes = Mapping[str, Any]
 Edges = Sequence[tuple[Attributes, bool]]
@@ -59,13 +61,24 @@ def label(value: Any, where: str, *, depth: int = 3) -> Any:
     """A value as a label: lists become tuples.
 
     Raises:
-        WorldError: it is missing, not finite, none of a word, a number or a short list of them.
+        WorldError: it is missing, not finite, half of a character, none of a word, a number or a short list of them.
     """
-    if isinstance(value, list | tuple) and depth and len(value) <= _LONGEST:  # pyright: ignore[reportUnknownArgumentType]
+    if isinstance(value, list | tuple) and depth and _parts(value, depth) <= _LONGEST:  # pyright: ignore[reportUnknownArgumentType]
         return tuple(label(part, where, depth=depth - 1) for part in value)  # pyright: ignore[reportUnknownVariableType]
     if not isinstance(value, str | int | float) or (isinstance(value, float) and not math.isfinite(value)):
         raise WorldError(f"{where} is {shown(value)}; use a word, a finite number, or a short list of them")
+    if isinstance(value, str) and _SURROGATE.search(value):
+        raise WorldError(f"{where} is {shown(value)}, which has half of a character; write it anew")
     return value
+
+
+def _parts(value: Any, depth: int) -> int:
+    """How many parts a list has, those of lists in it too; more than `_LONGEST` are not counted."""
+    if not isinstance(value, list | tuple) or not depth:
+        return 1
+    if len(value) > _LONGEST:  # pyright: ignore[reportUnknownArgumentType]
+        return _LONGEST + 1
+    return sum(_parts(part, depth - 1) for part in value)  # pyright: ignore[reportUnknownVariableType]
 
 
 def number(value: Any, where: str) -> float:

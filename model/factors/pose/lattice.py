@@ -22,6 +22,9 @@ from ...periods import Periods, reduced
 from ..base import Context, Floats, Ints, Support, Table, parts_of
 from .base import Ahead, Pose
 
+MANY = 2**25
+"""Entries of B_p that a file may ask for whose map has few places."""
+
 
 class Lattice(Pose):
     """A place has one position, relative to where the agent woke up, and a position one place.
@@ -83,13 +86,35 @@ class Lattice(Pose):
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over positions and counts."""
-        self.periods = tuple(tuple(row) for row in state.get("periods", ()))
-        for position in state["positions"]:
-            self._add(cast(Position, decode(position)))
+        self.periods = tuple(tuple(map(int, row)) for row in state.get("periods", ()))
+        positions = [decode(position) for position in state["positions"]]
+        self._check(positions, places)
+        for position in positions:
+            self._add(cast(Position, position))
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=len(self.positions))
         self.position_of.restore(parts_of(self.position_of, arrays), least=-1, bound=len(self.positions))
         self.places.restore(parts_of(self.places, arrays), least=-1, bound=places)
+        here, there = self.position_of.values, self.places.values
+        known, taken = np.flatnonzero(here >= 0), np.flatnonzero(there >= 0)
+        if not ((there[here[known]] == known).all() and (here[there[taken]] == taken).all()):
+            raise CogmapError("map: a place is not where its position has it; save it again")
+        if not (self.table.probability(here[known], known) > 0.0).all():
+            raise CogmapError("map: a place has no counts for its own position; save it again")
+
+    def _check(self, positions: Sequence[Hashable], places: int) -> None:
+        """Refuse what are no positions, and so many that a table of them would fill the memory."""
+        dimensions = len(self.origin)
+        for position in positions:
+            whole = isinstance(position, tuple) and set(map(type, position)) == {int}
+            if not (whole and len(position) in (dimensions, dimensions + 1)):
+                raise CogmapError(f"map: {position!r} is no position; save it again")
+            if max(map(abs, position)) >= 2**62:
+                raise CogmapError("map: a position is too far away; save it again")
+        if len(set(positions)) < len(positions):
+            raise CogmapError("map: two positions are the same; save it again")
+        if len(positions) > 8 * places + MANY // len(self.motions):
+            raise CogmapError(f"map: it has {len(positions)} positions of {places} places; save it again")
 
     # -- reading -------------------------------------------------------------------------------------------
 

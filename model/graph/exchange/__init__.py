@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from ...errors import CogmapError
 from ...files import write_whole
+from ...reading import read_file
 from ..factor_graph import FactorGraph
 from .bif import read_bif, write_bif
 from .graphml import write_graphml
@@ -30,6 +31,10 @@ __all__ = [
 ]
 
 T = TypeVar("T")
+
+LARGEST = 64 * 2**20
+"""Bytes of the largest file of a graph that is read."""
+
 _READ: dict[str, Callable[[str], FactorGraph]] = {
     ".bif": read_bif,
     ".xmlbif": read_xmlbif,
@@ -88,8 +93,11 @@ def _by_suffix(known: dict[str, T], path: Path) -> T:
 
 def _of(path: Path, read: Callable[[str], T]) -> T:
     try:
-        return read(path.read_text(encoding="utf-8"))
+        return read(read_file(path, most=LARGEST).decode("utf-8"))
+    except CogmapError as error:
+        raise error if str(error).startswith(str(path)) else CogmapError(f"{path}: {error}") from error
     except (OSError, UnicodeDecodeError) as error:
         raise CogmapError(f"{path}: cannot be read ({error}); give a text file") from error
-    except CogmapError as error:
-        raise CogmapError(f"{path}: {error}") from error
+    except (ArithmeticError, LookupError, MemoryError, RecursionError, TypeError, ValueError) as error:
+        why = " ".join(f"{type(error).__name__}: {error}".split())[:300]
+        raise CogmapError(f"{path}: cannot be understood ({why}); export it again") from error

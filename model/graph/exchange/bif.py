@@ -6,6 +6,7 @@ A `table` lists P(child | parents) with the last parent fastest; a row `(labels 
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Sequence
 from typing import NoReturn
 
@@ -14,13 +15,13 @@ import numpy as np
 from ...errors import CogmapError
 from ..factor_graph import FactorGraph
 from ..factors import FloatArray
-from .network import Conditional, conditionals_of, failed, network, texts
+from .network import Conditional, check_shape, conditionals_of, failed, network, texts
 
 _TEXT = r"\"[^\"]*\""
 _COMMENT = re.compile(rf"({_TEXT})|/\*.*?\*/|(?<![^\s;{{}}])//[^\n]*", re.S)
 _HEAD = re.compile(rf"\s*(network|variable|probability)\b((?:{_TEXT}|[^{{\"])*)\{{")
-_TYPE = re.compile(rf"type\s+discrete\s*\[\s*(\d+)\s*\]\s*\{{((?:{_TEXT}|[^}}\"])*)\}}\s*;")
-_PROPERTY = re.compile(rf"property\b(?:{_TEXT}|[^;\"])*;")
+_TYPE = re.compile(rf"\s*type\s+discrete\s*\[\s*(\d+)\s*\]\s*\{{((?:{_TEXT}|[^}}\"])*)\}}\s*;")
+_PROPERTY = re.compile(rf"\s*property\b(?:{_TEXT}|[^;\"])*;")
 _ROW = re.compile(rf"\s*(?:(table|default)\b|\(((?:{_TEXT}|[^)\"])*)\))([^;]*);")
 _BRACE = re.compile(rf"{_TEXT}|[{{}}]")
 _WORD = re.compile(r"\"([^\"]*)\"|([^\s,|\"]+)")
@@ -75,6 +76,7 @@ class _Reader:
 
     def __init__(self, text: str) -> None:
         self.text = text
+        self.breaks = [found.start() for found in re.finditer("\n", text)]
         self.domains: dict[str, Sequence[str]] = {}
         self.lines: dict[str, int] = {}
         self.conditionals: list[Conditional] = []
@@ -98,15 +100,20 @@ class _Reader:
         return network("BIF", self.domains, self.lines, self.conditionals)
 
     def _variable(self, words: Sequence[str], begin: int, end: int) -> None:
-        body = self.text[begin:end]
-        found = _TYPE.search(_PROPERTY.sub(_blank, body))
-        if len(words) != 1 or found is None:
+        found, at = None, begin
+        while True:
+            part = _TYPE.match(self.text, at, end) or _PROPERTY.match(self.text, at, end)
+            if part is None:
+                break
+            found = part if part.re is _TYPE else found
+            at = part.end()
+        if len(words) != 1 or found is None or self.text[at:end].strip():
             self._fail(begin, "expected 'variable NAME { type discrete [ n ] { labels }; }'")
         labels = _words(found[2])
         if words[0] in self.domains:
             self._fail(begin, f"a second variable {words[0]!r}; rename it")
-        if len(labels) != int(found[1]) or len(set(labels)) < len(labels):
-            self._fail(begin + found.start(), f"{words[0]!r} has {len(set(labels))} labels, not {found[1]}")
+        if str(len(labels)) != found[1].lstrip("0") or len(set(labels)) < len(labels):
+            self._fail(found.start(1), f"{words[0]!r} has {len(set(labels))} labels, not {found[1]}")
         self.domains[words[0]], self.lines[words[0]] = labels, self._line(begin)
 
     def _probability(self, words: Sequence[str], begin: int, end: int) -> None:
@@ -116,17 +123,17 @@ class _Reader:
             self._fail(begin, "expected 'probability ( CHILD | PARENTS )', each variable once")
         child, *parents = words
         index = [{label: i for i, label in enumerate(self.domains[parent])} for parent in parents]
-        values = np.full([len(self.domains[word]) for word in words], np.nan)
-        at, stop = begin, end
-        while found := _ROW.match(self.text, at, stop):
-            self._row(found, values, index)
+        shape = [len(self.domains[word]) for word in words]
+        check_shape("BIF", self._line(begin), shape)
+        values = np.full(shape, np.nan)
+        at = begin
+        while found := _ROW.match(self.text, at, end) or _PROPERTY.match(self.text, at, end):
+            if found.re is _ROW:
+                self._row(found, values, index)
             at = found.end()
-        rest = _PROPERTY.sub("", self.text[at:stop]).strip()
+        rest = self.text[at:end].lstrip()
         if rest:
-            self._fail(
-                at + len(self.text[at:stop]) - len(self.text[at:stop].lstrip()),
-                "expected 'table', 'default' or '(labels)' with numbers, and a semicolon",
-            )
+            self._fail(end - len(rest), "expected 'table', 'default' or '(labels)' with numbers, and a semicolon")
         self.conditionals.append(Conditional(child, parents, values, self._line(begin)))
 
     def _row(self, found: re.Match[str], values: FloatArray, index: Sequence[dict[str, int]]) -> None:
@@ -166,7 +173,7 @@ class _Reader:
         self._fail(begin, "the block that begins here does not end; add '}'")
 
     def _line(self, at: int) -> int:
-        return self.text.count("\n", 0, at) + 1
+        return bisect_left(self.breaks, at) + 1
 
     def _fail(self, at: int, why: str) -> NoReturn:
         raise failed("BIF", self._line(at), why)

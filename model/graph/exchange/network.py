@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import prod
 
 import numpy as np
 
@@ -17,9 +18,27 @@ ROUNDED = 1e-3
 """How far a column of a file may be from 1: files hold rounded numbers."""
 
 
+LARGEST = 10_000_000
+"""Entries of a table that a file may speak of."""
+
+MOST = 32
+"""Variables of a table."""
+
+
+def check_shape(what: str, line: int, shape: Sequence[int]) -> None:
+    """Refuse, before there is room made for it, a table that no file could fill.
+
+    Raises:
+        CogmapError: it has more than `LARGEST` entries, or is over more than `MOST` variables.
+    """
+    if len(shape) > MOST or prod(shape) > LARGEST:
+        size = f"{len(shape)} variables and {prod(shape):.3g} entries"
+        raise failed(what, line, f"a table has {size}; {MOST} and {LARGEST:,} are read at most")
+
+
 def failed(what: str, line: int, why: str) -> CogmapError:
     """The error of a malformed file: format, line, reason and remedy."""
-    return CogmapError(f"{what}, line {line}: {why}")
+    return CogmapError(f"{what}, line {line}: {why if len(why) < 500 else why[:400] + ' …'}")
 
 
 @dataclass(frozen=True, slots=True)

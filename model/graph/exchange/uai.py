@@ -15,7 +15,10 @@ import numpy as np
 from ...errors import CogmapError
 from ..factor_graph import FactorGraph
 from ..factors import FloatArray
-from .network import conditionals_of, failed
+from .network import LARGEST, MOST, check_shape, conditionals_of, failed
+
+MOST_LABELS = 100_000
+"""Labels of all variables together, besides one for each word of the file."""
 
 
 def read_uai(text: str, evidence: str | None = None) -> FactorGraph:
@@ -31,10 +34,15 @@ def read_uai(text: str, evidence: str | None = None) -> FactorGraph:
     words = _Words("UAI", text)
     kind = words.word("'MARKOV' or 'BAYES'").upper()
     if kind not in ("MARKOV", "BAYES"):
-        words.fail(f"the network is of type {kind!r}; expected 'MARKOV' or 'BAYES'")
+        words.fail(f"the network is of type {kind[:40]!r}; expected 'MARKOV' or 'BAYES'")
     graph = FactorGraph()
+    labels = 0
     for i in range(words.integer("the number of variables", 1)):
-        graph.variable(f"x{i}", range(words.integer(f"the number of labels of variable {i}", 1)))
+        count = words.integer(f"the number of labels of variable {i}", 1)
+        labels += count
+        if labels > MOST_LABELS + len(words.words):
+            words.fail(f"its variables have {labels:,} labels and more; no table could tell of so many")
+        graph.variable(f"x{i}", range(count))
     variables = graph.variables
     scopes: list[list[int]] = []
     for at in range(words.integer("the number of factors", 0)):
@@ -44,6 +52,8 @@ def read_uai(text: str, evidence: str | None = None) -> FactorGraph:
             words.fail(f"factor {at} has a variable twice; name each once")
     for at, scope in enumerate(scopes):
         shape = [variables[i].cardinality for i in scope]
+        if len(shape) > MOST or math.prod(shape) > LARGEST:
+            check_shape("UAI", words.line, shape)
         count = words.integer(f"the number of entries of factor {at}", 0)
         if count != math.prod(shape):
             words.fail(f"factor {at} has {count} entries; its variables need {math.prod(shape)}")
@@ -134,8 +144,8 @@ class _Words:
 
     def integer(self, expected: str, least: int, end: int | None = None) -> int:
         word = self.word(expected)
-        if not word.isdecimal() or int(word) < least or (end is not None and int(word) >= end):
-            self.fail(f"{word!r} where {expected} should be, {least} or more" + (f", below {end}" if end else ""))
+        if not word.isdecimal() or len(word) > 18 or int(word) < least or (end is not None and int(word) >= end):
+            self.fail(f"{word[:40]!r} where {expected} should be, {least} or more" + (f", below {end}" if end else ""))
         return int(word)
 
     def numbers(self, expected: str, count: int) -> FloatArray:
@@ -144,7 +154,7 @@ class _Words:
         wrong = np.flatnonzero(~(values >= 0))
         self.at += int(wrong[0]) + 1 if len(wrong) else len(words)
         if len(wrong):
-            self.fail(f"{words[wrong[0]]!r} is no entry of {expected}; give finite numbers, 0 or more")
+            self.fail(f"{words[wrong[0]][:40]!r} is no entry of {expected}; give finite numbers, 0 or more")
         if len(words) < count:
             self.fail(f"the file ends within the entries of {expected}; {count} are needed")
         return values
@@ -152,17 +162,22 @@ class _Words:
     def end(self) -> None:
         if self.at < len(self.words):
             self.at += 1
-            self.fail(f"{self.words[self.at - 1]!r} after the end; check the number of factors")
+            self.fail(f"{self.words[self.at - 1][:40]!r} after the end; check the number of factors")
 
-    def fail(self, why: str) -> NoReturn:
-        """The error, with the line of the word that was read last."""
+    @property
+    def line(self) -> int:
+        """Of the word that was read last."""
         seen = 0
         lines = self.text.splitlines() or [""]
         for line, text in enumerate(lines, start=1):
             seen += len(text.split())
             if seen >= self.at > 0:
-                raise failed(self.what, line, why)
-        raise failed(self.what, len(lines) if self.at else 1, why)
+                return line
+        return len(lines) if self.at else 1
+
+    def fail(self, why: str) -> NoReturn:
+        """The error, with the line of the word that was read last."""
+        raise failed(self.what, self.line, why)
 
 
 def _entry(word: str) -> float:

@@ -10,12 +10,16 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from ..factor_graph import FactorGraph
-from .network import Conditional, conditionals_of, failed, network, texts
+from .network import Conditional, check_shape, conditionals_of, failed, network, texts
 
 _HEAD = """<?xml version="1.0" encoding="UTF-8"?>
 <BIF VERSION="0.3">
 <NETWORK>
 <NAME>cogmap</NAME>"""
+
+
+DEEPEST = 50
+"""Elements within one another."""
 
 
 @dataclass(slots=True)
@@ -24,8 +28,12 @@ class _Element:
 
     tag: str
     line: int
-    text: str = ""
+    parts: list[str] = field(default_factory=list[str])
     inside: list[_Element] = field(default_factory=list["_Element"])
+
+    @property
+    def text(self) -> str:
+        return "".join(self.parts)
 
     def all(self, *tags: str) -> list[_Element]:
         return [each for each in self.inside if each.tag in tags]
@@ -81,6 +89,7 @@ def _conditional(element: _Element, domains: dict[str, list[str]]) -> Conditiona
         _fail(element, f"a variable is named twice in the table of {child!r}")
     words = _only(element, "TABLE").split()
     shape = [len(domains[name]) for name in scope]
+    check_shape("XMLBIF", element.line, shape)
     try:
         values = np.array([float(word) for word in words]).reshape([*shape[1:], shape[0]])
     except ValueError as error:
@@ -101,16 +110,24 @@ def _parsed(text: str) -> _Element:
     parser = expat.ParserCreate(encoding="UTF-8")  # the text is decoded already, whatever it declares
 
     def begin(tag: str, _: object) -> None:
+        if len(path) > DEEPEST:
+            raise failed("XMLBIF", parser.CurrentLineNumber, "elements are nested too deeply; mend it")
         path.append(_Element(tag.upper(), parser.CurrentLineNumber))
         path[-2].inside.append(path[-1])
+
+    def entity(name: str, *_: object) -> None:
+        raise failed(
+            "XMLBIF", parser.CurrentLineNumber, f"it declares an entity {name[:40]!r}; write out what it means"
+        )
 
     def end(_: str) -> None:
         path.pop()
 
     def characters(data: str) -> None:
-        path[-1].text += data
+        path[-1].parts.append(data)
 
     parser.StartElementHandler, parser.EndElementHandler, parser.CharacterDataHandler = begin, end, characters
+    parser.EntityDeclHandler = entity  # a few that speak of one another can stand for any length
     try:
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:

@@ -1,0 +1,120 @@
+"""Hypotheses about the map, walked side by side: what would they expect to sense on the same way?"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from ...model import CogmapError
+
+MOST = 8
+"""Hypotheses that are walked side by side, at most: the heaviest."""
+
+Places = tuple[Hashable | None, ...]
+Classes = tuple[int, ...]
+State = tuple[Places, Classes]
+"""Where the agent would be under each hypothesis, and which could not yet be told apart: those of one number."""
+
+
+class MapHypotheses(Protocol):
+    """Hypotheses about the map as a planner asks them; places are numbered by each hypothesis as it likes."""
+
+    @property
+    def weights(self) -> Sequence[float]:
+        """`[H]` how probable each is, up to a common factor."""
+        ...
+
+    @property
+    def here(self) -> Sequence[Hashable]:
+        """`[H]` where the agent is under each."""
+        ...
+
+    def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
+        """The place that an action most probably leads to, the same where it is blocked, None for one never seen."""
+        ...
+
+    def expected(self, h: int, place: Hashable, /) -> Hashable:
+        """What would be sensed in a place: hypotheses that expect equal things cannot be told apart there."""
+        ...
+
+
+@dataclass(frozen=True)
+class Structure:
+    """Two hypotheses or more, side by side; steps are worked out once.
+
+    Attributes:
+        hypotheses: all of them.
+        kept: numbers of those that are walked.
+        weights: of these, sum to one.
+        start: before the first step, when none of them can be told apart.
+    """
+
+    hypotheses: MapHypotheses
+    kept: tuple[int, ...]
+    weights: tuple[float, ...]
+    start: State
+    _steps: dict[tuple[State, int], State] = field(default_factory=dict[tuple[State, int], State], repr=False)
+    _told: dict[Classes, float] = field(default_factory=dict[Classes, float], repr=False)
+
+    @classmethod
+    def of(cls, hypotheses: MapHypotheses | None) -> Structure | None:
+        """The heaviest of some hypotheses; None where there is no more than one.
+
+        Raises:
+            CogmapError: weights that are none, or not one for each hypothesis.
+        """
+        if hypotheses is None:
+            return None
+        weights, here = list(hypotheses.weights), list(hypotheses.here)
+        if (
+            len(weights) != len(here)
+            or not weights
+            or not all(0.0 <= w < math.inf for w in weights)
+            or not any(weights)
+        ):
+            raise CogmapError(
+                f"plan: weights of hypotheses are {weights}, of {len(here)}; give each a finite number of 0 or more, "
+                "not all 0"
+            )
+        kept = sorted(range(len(weights)), key=lambda h: -weights[h])[:MOST]
+        kept = [h for h in kept if weights[h] > 0.0]
+        if len(kept) < 2:
+            return None
+        total = sum(weights[h] for h in kept)
+        start = tuple(here[h] for h in kept), (0,) * len(kept)
+        return cls(hypotheses, tuple(kept), tuple(weights[h] / total for h in kept), start)
+
+    @property
+    def entropy(self) -> float:
+        """Nats that there are to be told."""
+        return self.told(tuple(range(len(self.kept))))
+
+    def told(self, classes: Classes) -> float:
+        """Nats that are known of the hypotheses where they fall into these classes: the entropy of the classes."""
+        if classes not in self._told:
+            mass = [0.0] * len(classes)
+            for number, weight in zip(classes, self.weights, strict=True):
+                mass[number] += weight
+            self._told[classes] = -sum(p * math.log(p) for p in mass if p > 0.0)
+        return self._told[classes]
+
+    def walk(self, state: State, action: int) -> State:
+        """After one more step. Where none of them moves nothing new is sensed, and nothing told."""
+        if (state, action) not in self._steps:
+            self._steps[state, action] = self._walked(state, action)
+        return self._steps[state, action]
+
+    def _walked(self, state: State, action: int) -> State:
+        places, classes = state
+        ask = self.hypotheses
+        after = tuple(
+            None if place is None else ask.ahead(h, place, action) for h, place in zip(self.kept, places, strict=True)
+        )
+        if after == places:
+            return state
+        sensed = [None if at is None else (ask.expected(h, at),) for h, at in zip(self.kept, after, strict=True)]
+        numbers: dict[object, int] = {}
+        apart = tuple(numbers.setdefault(key, len(numbers)) for key in zip(classes, sensed, strict=True))
+        return after, apart
