@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from .base import Context, ModelFactor, Successors, Support, Table, parts_of
 from .displacement import Displacement
+from .features import Features
 from .pose import POSES, Ahead, Lattice, NoPose, Pose
 from .sensor import Sensor
 from .sight import Sight
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 from .ways import Ways
 
-SENSORS: dict[str, type[Sensor]] = {"sight": Sight, "ways": Ways}
+SENSORS: dict[str, type[Sensor]] = {"sight": Sight, "features": Features, "ways": Ways}
 """Kinds of sensors by name."""
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "Ahead",
     "Context",
     "Displacement",
+    "Features",
     "Lattice",
     "ModelFactor",
     "NoPose",

@@ -1,0 +1,214 @@
+"""Prototypes of vectors: a mixture of Gaussians of one learned spread that grows as a Chinese restaurant process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from math import inf, lgamma, log, pi, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import gammaln
+
+from ..errors import CogmapError
+from .base import Floats
+
+CONCENTRATION = 1.0
+"""Of the Chinese restaurant process: after n vectors the next shows something new with probability 1 / (n + 1)."""
+
+POSSIBLE = 0.02
+"""Probability from which on a vector is taken for something new while little is known of the spread.
+
+To unite two that are one is safer than to part them. Where much is known it is a half.
+"""
+
+SURE = log(100.0)
+"""Log odds from which on two prototypes are one."""
+
+WORTH = 4.0
+"""Numbers that the first guess of the spread counts as."""
+
+GUESSED = 6.0
+"""Numbers that the first guess of how prototypes differ counts as."""
+
+
+class Prototypes:
+    """What vectors were like so far.
+
+    A prototype is drawn from N(m, τ² I), a vector that shows it from N(prototype, σ² I). σ² has an inverse gamma prior
+    about (`noise` τ)², so that a vector is known again by a Student t; and τ² one about the variance of the numbers of
+    the first vector, until there are prototypes that tell better. So what all vectors have in common, number by number,
+    must not be much more than what tells them apart: subtract it before. Each vector teaches by its posterior. What may
+    be new is taken for new, and united with what turns out to be the same when more is known.
+
+    It is a store of the map, but the log of changes does not speak of it: what was seen stays seen, wherever it was.
+
+    Args:
+        name: unique in its map.
+        size: numbers of a vector, D.
+        noise: a first guess of σ / τ.
+    """
+
+    def __init__(self, name: str, *, size: int, noise: float) -> None:
+        self.name, self._size, self._noise = name, size, noise
+        self._first = np.zeros(2)  # mean and variance of the numbers of the first vector
+        self._stray = np.zeros(2)  # sum of squares about prototypes, and how many numbers it is of
+        self._counts = np.zeros(0)
+        self._sums = np.zeros((0, size))
+
+    @property
+    def count(self) -> int:
+        """How many there ever were; their numbers stay, also of those that turned out to be another."""
+        return len(self._counts)
+
+    @property
+    def numbers(self) -> list[int]:
+        """`[n]` those that there are."""
+        return np.flatnonzero(self._counts).tolist()
+
+    @property
+    def means(self) -> Floats:
+        """`[n, D]` the mean of what showed each that there is."""
+        there = self._counts > 0.0
+        return self._sums[there] / self._counts[there, None]
+
+    @property
+    def spread(self) -> float:
+        """σ, about a prototype."""
+        return sqrt(self._variance(self._apart()[1]))
+
+    def log_likelihoods(self, vector: Floats) -> tuple[Floats, float]:
+        """`[K]` log P(x | prototype) of each, and the same of one that is new, in nats."""
+        mean, apart = self._apart()
+        variance = self._variance(apart)
+        shrink = variance / apart  # what its prior counts as, in vectors
+        centres = (self._sums + shrink * mean) / (self._counts + shrink)[:, None]
+        wider = variance * (1.0 + 1.0 / (self._counts + shrink))
+        squares = ((vector - centres) ** 2).sum(axis=1)
+        known = _student(squares, wider, WORTH + self._stray[1].item(), self._size)
+        known[self._counts == 0.0] = -inf
+        there = int((self._counts > 0.0).sum())
+        total = apart * (1.0 + 1.0 / (1.0 + there)) + variance
+        degrees = GUESSED + max(there - 1, 0) * self._size
+        new = _student(np.array([((vector - mean) ** 2).sum()]), np.array([total]), degrees, self._size)
+        return known, new.item()
+
+    def take_in(self, vector: Floats) -> Floats:
+        """Learn from a vector, as a new prototype where that is possible; and unite prototypes that are the same.
+
+        Returns:
+            `[K]` log P(x | prototype) of each, the new one included, in nats; -inf of those that were united.
+        """
+        if not self.count:
+            self._begin(vector)
+        told, new = self.log_likelihoods(vector)
+        with np.errstate(divide="ignore"):
+            weighed = np.append(told + np.log(self._counts), new + log(CONCENTRATION))
+        posterior = np.exp(weighed - np.logaddexp.reduce(weighed))
+        known = self._stray[1] / (self._stray[1] + 8.0 * self._size)
+        if posterior[-1] > POSSIBLE + known * (0.5 - POSSIBLE):
+            self._counts = np.append(self._counts, 1.0)
+            self._sums = np.vstack([self._sums, vector])
+            told = np.append(told, new)
+        else:
+            self._learn(vector, posterior[:-1] / posterior[:-1].sum())
+        while (same := self._same()) is not None:
+            kept, gone = same
+            self._unite(kept, gone)
+            told[kept], told[gone] = np.logaddexp(told[kept], told[gone]), -inf
+        return told
+
+    def _begin(self, vector: Floats) -> None:
+        """What a first vector says of them all."""
+        variance = float(vector.var()) if self._size > 1 else float(vector[0] ** 2)
+        least = (1e-9 * float(np.abs(vector).max()) or 1e-9) ** 2  # where all its numbers are the same
+        self._first = np.array([vector.mean() if self._size > 1 else 0.0, max(variance, least)])
+
+    def _same(self) -> tuple[int, int] | None:
+        """The pair of prototypes that is most probably one, the older first; None where all are different."""
+        at = np.flatnonzero(self._counts)
+        if len(at) < 2:
+            return None
+        one, other = np.triu_indices(len(at), 1)
+        one, other = at[one], at[other]
+        _, apart = self._apart()
+        variance = self._variance(apart)
+        many, few = self._counts[one], self._counts[other]
+        squares = ((self._sums[one] / many[:, None] - self._sums[other] / few[:, None]) ** 2).sum(axis=1)
+        wide = variance * (1.0 / many + 1.0 / few)
+        same = _student(squares, wide, WORTH + self._stray[1].item(), self._size)
+        different = _student(squares, wide + 2.0 * apart, GUESSED + (len(at) - 1) * self._size, self._size)
+        odds = same - different + gammaln(many + few) - gammaln(many) - gammaln(few) - log(CONCENTRATION)
+        best = int(odds.argmax())
+        return (int(one[best]), int(other[best])) if odds[best] > SURE else None
+
+    def _unite(self, kept: int, gone: int) -> None:
+        many, few = self._counts[kept], self._counts[gone]
+        squares = ((self._sums[kept] / many - self._sums[gone] / few) ** 2).sum()
+        self._stray += float(squares * many * few / (many + few)), self._size
+        self._counts[kept], self._counts[gone] = many + few, 0.0
+        self._sums[kept] += self._sums[gone]
+        self._sums[gone] = 0.0
+
+    def _learn(self, vector: Floats, share: Floats) -> None:
+        there = self._counts > 0.0
+        means = self._sums / np.where(there, self._counts, 1.0)[:, None]
+        squares = ((vector - means) ** 2).sum(axis=1) * self._counts / np.where(there, self._counts + share, 1.0)
+        self._stray += float(share @ squares), self._size
+        self._counts = self._counts + share
+        self._sums = self._sums + share[:, None] * vector
+
+    def _apart(self) -> tuple[Floats, float]:
+        """m `[D]` and τ²: how prototypes differ from each other."""
+        middle, variance = self._first.tolist()
+        means = self.means
+        most = self._size * max(len(means) - 1, 0)
+        centre = (means.sum(axis=0) + middle) / (len(means) + 1.0)
+        differ = ((means - means.mean(axis=0)) ** 2).sum() if most else 0.0
+        return centre, float(GUESSED * variance + differ) / (GUESSED + most)
+
+    def _variance(self, apart: float) -> float:
+        """σ² as learned so far."""
+        return (WORTH * self._noise**2 * apart + self._stray[0].item()) / (WORTH + self._stray[1].item())
+
+    # -- as a store of the map ---------------------------------------------------------------------------------
+
+    def put(self, where: Any, value: Any) -> None:
+        """Nothing: no change of it is logged."""
+
+    def value(self, numbers: Sequence[float]) -> None:
+        """Nothing."""
+
+    def fits(self, where: Any, value: Any, places: int) -> bool:
+        """Never: no change of it is logged."""
+        return False
+
+    def touched(self, where: Any) -> Iterable[int]:
+        """No place."""
+        return ()
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """Copies of all that it knows."""
+        parts = {"first": self._first, "stray": self._stray, "counts": self._counts, "sums": self._sums}
+        return {name: part.copy() for name, part in parts.items()}
+
+    def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over what `state` gave.
+
+        Raises:
+            CogmapError: it is of vectors of another size, or no such numbers.
+        """
+        first, stray, counts, sums = (state[part] for part in ("first", "stray", "counts", "sums"))
+        fits = first.shape == stray.shape == (2,) and counts.ndim == 1 and sums.shape == (len(counts), self._size)
+        parts = (first, stray, counts, sums)
+        if not (fits and all(part.dtype == np.float64 and (np.abs(part) < inf).all() for part in parts)):
+            raise CogmapError(f"map: {self.name} do not fit vectors of {self._size} numbers; save it again")
+        if not ((counts >= 0.0).all() and (stray >= 0.0).all() and first[1] >= 0.0):
+            raise CogmapError(f"map: {self.name} have counts that are none; save it again")
+        self._first, self._stray, self._counts, self._sums = (part.copy() for part in parts)
+
+
+def _student(squares: Floats, variance: Floats, degrees: float, size: int) -> Floats:
+    """`[K]` log density of a D-dimensional Student t at a squared distance from its centre."""
+    constant = lgamma(0.5 * (degrees + size)) - lgamma(0.5 * degrees) - 0.5 * size * log(degrees * pi)
+    return constant - 0.5 * size * np.log(variance) - 0.5 * (degrees + size) * np.log1p(squares / (degrees * variance))
