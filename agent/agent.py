@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..inference import DECISIVE, Belief, Rivals, advance, advance_rivals, begin, certain_of, rivals_of
 from ..model import (
+    STEPS,
     CogmapError,
     CognitiveMap,
     FactorGraph,
@@ -25,6 +26,7 @@ from ..model import (
     Sensor,
     Slice,
     Whereabouts,
+    is_number,
     map_state,
     restore_map,
     take_slice,
@@ -42,6 +44,12 @@ from .trace import StepRecord, record_of
 
 Seed = int | np.random.SeedSequence | None
 
+LARGEST = 1e9
+"""Of log preferences, in nats."""
+
+KEEP = 10_000
+"""Steps of which the trace and the log of growth keep everything, unless told otherwise."""
+
 
 class Agent:
     """An agent that builds its own map.
@@ -58,13 +66,15 @@ class Agent:
         planner: how it plans: policies, terms of G, choice; `Planner()` unless given.
         settings: every number; see `Settings`.
         seed: of the generator that breaks ties and draws policies.
+        keep: of so many last steps at least `trace` has every record and `map.growth` every event, of those before it
+            what is still there; None of all of them, however many.
 
     Attributes:
         map: what it believes the world to be.
         growth: its growth rule.
         planner: its planner.
         rng: the generator.
-        trace: one record a step that was answered.
+        trace: one record a step that was answered; see `keep`.
 
     Raises:
         CogmapError: motions, parts or settings that make no sense.
@@ -80,8 +90,10 @@ class Agent:
         planner: Planner | None = None,
         settings: Settings | None = None,
         seed: Seed = None,
+        keep: int | None = KEEP,
     ) -> None:
         self._assemble(motions, sensors, pose, growth, planner, settings or Settings(), seed)
+        self.keep = keep
         self.growth.begin(self.map, step=0)
 
     def _assemble(
@@ -136,6 +148,18 @@ class Agent:
         return self._settings
 
     @property
+    def keep(self) -> int | None:
+        """Steps of which trace and log of growth keep everything; may be set at any time, and is not saved."""
+        return self._keep
+
+    @keep.setter
+    def keep(self, steps: int | None) -> None:
+        whole = isinstance(steps, int | np.integer) and not isinstance(steps, bool)
+        if steps is not None and not (whole and steps >= STEPS):
+            raise CogmapError(f"agent: keep is {steps!r}; give a whole number of {STEPS} steps or more, or None")
+        self._keep = self.map.growth.keep = steps
+
+    @property
     def steps(self) -> int:
         """Observations taken in so far."""
         return self._state.steps
@@ -186,9 +210,10 @@ class Agent:
                 raise CogmapError(f"agent: preferences are a {kind}; give a mapping to log preferences in nats")
         sights, places = dict(sights or {}), dict(places or {})
         for wanted, value in (*sights.items(), *places.items()):
-            if not (isinstance(value, int | float | np.number) and np.isfinite(value)):  # pyright: ignore[reportUnnecessaryIsInstance]
+            if not is_number(value, -LARGEST, LARGEST):
                 raise CogmapError(
-                    f"agent: preference {value!r} of {wanted!r} is not a finite number; give a log preference in nats"
+                    f"agent: preference {value!r} of {wanted!r} is not a finite number; give a log preference in nats, "
+                    f"{LARGEST:g} at most"
                 )
         for place in places:
             if place not in self.map.places:
@@ -273,6 +298,8 @@ class Agent:
             retracted=state.retracted,
         )
         self.trace.append(record)
+        if self._keep is not None and len(self.trace) >= 2 * self._keep:
+            del self.trace[: -self._keep]
         state.action, state.acted = plan.action, True
         return plan.action
 
@@ -341,6 +368,7 @@ class Agent:
         made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth, planner=planner)
         motions = dict(zip(header["motions"]["names"], header["motions"]["displacements"], strict=True))
         agent._assemble(motions, *made, Settings.from_dict(header["settings"]), None)
+        agent.keep = KEEP
         restore_map(agent.map, header["map"], arrays)
         agent.rng.bit_generator.state = header["rng"]
         agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from .changes import Change, Changes, Store
 from .dirichlet import SparseDirichlet
 from .errors import CogmapError
-from .factors import Displacement, Lattice, ModelFactor, Pose, Sensor, Sight, Transition, Ways
+from .factors import Displacement, Lattice, ModelFactor, NoPose, Pose, Sensor, Sight, Transition, Ways
 from .factors.base import Context
 from .growth_event import GrowthEvent, GrowthKind
+from .growth_log import GrowthLog
 from .motions import Motions, Position
 from .percept import Percept
 from .rates import Priors, Rates
@@ -42,7 +43,7 @@ class GenerativeModel:
         transitions: where ways lead.
         displacement: the factor of being moved, or None.
         changes: the log of all that is written.
-        growth: everything that was ever added, in order.
+        growth: everything that was ever added, in order; see `GrowthLog.keep`.
         visits: which places were entered.
         A_o: counts of the first sensor that sees labels; every place shows the same where none does.
         A_p: counts of positions; empty where places have none.
@@ -67,10 +68,12 @@ class GenerativeModel:
     ) -> None:
         self.motions = motions
         self.changes = Changes()
-        self.growth: list[GrowthEvent] = []
+        self.growth = GrowthLog()
         self.visits = Visits(self.changes)
         self.transitions = Transition()
-        self.pose = pose or Lattice()
+        self.pose = pose or (Lattice() if motions.placed else NoPose())
+        if isinstance(self.pose, Lattice) and not motions.placed:
+            raise CogmapError("pose: these actions have no displacements, so places have no positions; give NoPose()")
         self.displacement = None if displacement is None else Displacement(displacement)
         given = [Sight(), Ways()] if sensors is None else list(sensors)
         self.sensors = {sensor.name: sensor for sensor in given}
@@ -156,7 +159,8 @@ class GenerativeModel:
             self._settle(place, position, step)
         elif source is not None and action is not None:
             self.transitions.link(source, action, place)
-            self.transitions.link(place, self.motions.inverse[action], source)
+            if self.motions.inverse[action] >= 0:
+                self.transitions.link(place, self.motions.inverse[action], source)
         return place
 
     def bind(

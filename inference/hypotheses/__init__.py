@@ -3,7 +3,7 @@
 from .branches import Lead
 from .hypothesis import Hypothesis
 from .options import Change, Checkpoint, TrackerOptions
-from .reading import RateOf, label_probabilities, open_probability, rates_of, where_to
+from .reading import RateOf, label_probabilities, open_probability, rates_of, where_to, whereabouts
 from .records import NOWHERE, Place, Way
 from .scheme import Sensed, WayScheme
 from .tracker import Tracker
@@ -25,4 +25,5 @@ __all__ = [
     "open_probability",
     "rates_of",
     "where_to",
+    "whereabouts",
 ]

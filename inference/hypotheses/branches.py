@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from heapq import nlargest
 from math import exp, inf, log
 from typing import NamedTuple
 
 from .evidence import log_likelihood, log_predictive, probability, way_odds
 from .hypothesis import Hypothesis
+from .logs import log_sum
 from .rates import OPEN
 from .records import NOWHERE, Place
 from .scheme import Sensed
 
-LOOK_ALIKES = 64
+CROWD = 8
+"""Places from which on those that a silent move may have led to are one hypothesis, with a message over them."""
+
+MOST = 4096
 """Places into which a silent move is thought of at most, the last ones first seen."""
 
 RELINKED = 0.02
 """P(a way that was walked once leads elsewhere after all, since that walk was another); falls with walks squared."""
+
+
+FAINT = 18.0
+"""Nats below which a place of a crowd is let go."""
 
 
 class Alternative(NamedTuple):
@@ -29,6 +38,7 @@ class Alternative(NamedTuple):
         to: the place the agent is in now; `NOWHERE` for one never seen.
         charted: the new place is where the pose says.
         astray, failed, moved: posterior probabilities that this is how it happened.
+        crowd: where the agent may be, with log probabilities, in one map; None where that is `to`.
     """
 
     weight: float
@@ -39,6 +49,15 @@ class Alternative(NamedTuple):
     astray: float
     failed: float
     moved: float
+    crowd: Mapping[int, float] | None = None
+
+
+def apart(branch: Alternative, best: Alternative) -> bool:
+    """Whether a branch says of a new place only that it is not where the pose says, as the best one does.
+
+    Both expect the same until a chart contradicts one of them.
+    """
+    return branch.to == NOWHERE and not branch.charted and best.charted
 
 
 class Lead(NamedTuple):
@@ -52,6 +71,9 @@ class Lead(NamedTuple):
 
 def branches(h: Hypothesis, sensed: Sensed, *, drop: float, floor: float = -inf) -> Iterator[Alternative]:
     """What may have happened, as far as it is above `floor` and within `drop` (nats) of the most probable so far."""
+    if h.crowd is not None and not sensed.told:
+        yield from strayed(h, sensed, h.crowd, drop=drop)
+        return
     walker = Walker(h, sensed)
     walker.floor = floor
     for branch in walker.moves():
@@ -124,14 +146,30 @@ class Walker:
         lead = leads(h, h.here, self.place, way)
         if lead.to != NOWHERE:
             yield self.along(way, lead, before, astray)
-        back = None if h.scheme.inverse is None else h.scheme.inverse[way]
         if lead.new > 0.0 and before + log(lead.new) > self.floor:
-            key = h.beyond(self.place, way)
-            weight = before + log(lead.new) + log_predictive(h, self.sensed, key, back, h.here)
-            yield Alternative(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
+            yield self.new(way, before + log(lead.new), astray)
         if lead.off > 0.0 and before + log(lead.off) > self.floor:
-            weight = before + log(lead.off) + log_predictive(h, self.sensed, None, back, h.here)
-            yield Alternative(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
+            yield self.off(way, lead, before, astray)
+
+    def off(self, way: int, lead: Lead, before: float, astray: float) -> Alternative:
+        """Along a way, to a place never seen that is not where the pose says."""
+        h = self.h
+        back = None if h.scheme.inverse is None else h.scheme.inverse[way]
+        weight = before + log(lead.off) + log_predictive(h, self.sensed, None, back, h.here)
+        return Alternative(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
+
+    def new(self, way: int, before: float, astray: float) -> Alternative:
+        """Along a way, to a place never seen that is where the pose says, if it says that."""
+        h = self.h
+        back = None if h.scheme.inverse is None else h.scheme.inverse[way]
+        weight = before + log_predictive(h, self.sensed, h.beyond(self.place, way), back, h.here)
+        return Alternative(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
+
+    def put_elsewhere(self) -> Alternative:
+        """Put into a place never seen, without a word."""
+        weight = log_predictive(self.h, self.sensed, None, None, NOWHERE)
+        weight += self.h.weight + self.put_there + log(self.unseen)
+        return Alternative(weight, self.h, NOWHERE, NOWHERE, False, 0.0, 0.0, 1.0)
 
     def along(self, way: int, lead: Lead, before: float, astray: float) -> Alternative:
         """Along a way; if it was walked before, being put there makes the same map, so the two are one branch."""
@@ -147,11 +185,20 @@ class Walker:
         h, each = self.h, self.h.weight + self.put_there
         if each + log(max(self.unseen, 1.0)) <= self.floor:
             return
-        for number in look_alikes(h, self.sensed):
-            if number not in self.arrived:
-                yield Alternative(each + self.at(number), h, NOWHERE, number, False, 0.0, 0.0, 1.0)
-        weight = each + log(self.unseen) + log_predictive(h, self.sensed, None, None, NOWHERE)
-        yield Alternative(weight, h, NOWHERE, NOWHERE, False, 0.0, 0.0, 1.0)
+        found = {k: each + self.at(k) for k in look_alikes(h, self.sensed) if k not in self.arrived}
+        if len(found) > CROWD:
+            yield self._crowd(found)
+        else:
+            for number, weight in found.items():
+                yield Alternative(weight, h, NOWHERE, number, False, 0.0, 0.0, 1.0)
+        yield self.put_elsewhere()
+
+    def _crowd(self, found: Mapping[int, float]) -> Alternative:
+        """Put into one of many places."""
+        total = log_sum(list(found.values()))
+        crowd = {number: weight - total for number, weight in found.items() if weight > total - FAINT}
+        to = max(crowd, key=crowd.__getitem__)
+        return Alternative(total, self.h, NOWHERE, to, False, 0.0, 0.0, 1.0, crowd)
 
     def at(self, number: int) -> float:
         """log P(sensed | that place)."""
@@ -169,7 +216,7 @@ def unseen(h: Hypothesis) -> float:
 def look_alikes(h: Hypothesis, sensed: Sensed) -> tuple[int, ...]:
     """Places that may look like what is sensed, those first seen last."""
     reading = sensed.sights[0] if sensed.sights else None
-    return (h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(h.places))[-LOOK_ALIKES:]
+    return (h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(sorted(h.places)))[-MOST:]
 
 
 def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:
@@ -207,3 +254,49 @@ def _returns(h: Hypothesis, place: Place, way: int) -> Lead:
             if p > sure:
                 best, sure = source, p
     return Lead(best, min(sure, 0.98), (1.0 - min(sure, 0.98)) * h.chances.new, 0.0)
+
+
+def strayed(h: Hypothesis, sensed: Sensed, crowd: Mapping[int, float], *, drop: float) -> Iterator[Alternative]:
+    """The branches of a hypothesis whose map is known, but not where in it the agent is.
+
+    One message over the places goes a step ahead; where few are left they are branches of their own, and so are new
+    places that are entered from the most probable ones.
+    """
+    ahead: dict[int, float] = {}
+    beyond: list[tuple[float, int]] = []
+    for number, weight in crowd.items():
+        for to, p in _ahead(h, number, sensed):
+            if to == NOWHERE:
+                beyond.append((weight + log(p), number))
+            else:
+                ahead[to] = ahead.get(to, 0.0) + p * exp(weight)
+    found = {to: h.weight + log(p) + log_likelihood(h, to, sensed) for to, p in ahead.items() if p > 0.0}
+    if found:
+        total = log_sum(list(found.values()))
+        kept = {to: weight - total for to, weight in found.items() if weight > total - FAINT}
+        if len(kept) > CROWD:
+            yield Alternative(total, h, NOWHERE, max(kept, key=kept.__getitem__), False, 0.0, 0.0, 0.0, kept)
+        else:
+            for to in kept:
+                yield Alternative(found[to], h, NOWHERE, to, False, 0.0, 0.0, 0.0)
+    for weight, number in nlargest(CROWD, beyond):
+        parent = h.fork()
+        parent.crowd, parent.here, parent.weight = None, number, h.weight + weight
+        if sensed.action is not None and weight > -drop:
+            yield Walker(parent, sensed).new(sensed.action, parent.weight, 0.0)
+
+
+def _ahead(h: Hypothesis, number: int, sensed: Sensed) -> Iterator[tuple[int, float]]:
+    """Where a step from a place may have led, if the action given was carried out; `NOWHERE` for a new place."""
+    action, chances = sensed.action, h.chances
+    if action is None:
+        yield number, 1.0
+        return
+    place = h.places[number]
+    walks = probability(way_odds(h, number, place, action)) * (1.0 - chances.fails)
+    lead = leads(h, number, place, action)
+    yield number, 1.0 - walks
+    if lead.to != NOWHERE:
+        yield lead.to, walks * lead.sure
+    if lead.new > 0.0:
+        yield NOWHERE, walks * lead.new

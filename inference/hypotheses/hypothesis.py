@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from operator import add
 
 from ...model import Periods, reduced
 from .chances import Chances
 from .layered import Layered
 from .rates import BESIDE, OPEN, SIGHT_MISREAD, WAY_MISREAD, RateCounts
-from .records import NOWHERE, Place, Position
+from .records import NOWHERE, Place, Position, Share
 from .scheme import WayScheme
+
+SHARES = (
+    (OPEN, True), (OPEN, False), (WAY_MISREAD, True), (WAY_MISREAD, False), (SIGHT_MISREAD, True),
+    (SIGHT_MISREAD, False), (BESIDE, True), (BESIDE, False),
+)  # fmt: skip
+"""Which rate each part of a share counts for, and whether as true."""
 
 Key = tuple[int, Position]
 Label = tuple[int, int]
@@ -29,16 +36,20 @@ class Hypothesis:
             it is not known beforehand which do.
         periods: of the charts that close on themselves, by frame.
         here: the place the agent is in.
+        crowd: where the agent may be, with log probabilities, if that is open in this map: `here` is the likeliest, and
+            nothing is learned of places; None otherwise.
         weight: log posterior weight.
+        digest: the same for maps that are the same, whatever their places are numbered; hardly ever for others.
         size, links: number of places, and of ways between them (both directions are one).
         chances: the rates expected at this step.
         origin: while a step is taken in, the hypothesis that this one only extends.
+        apart: it says of some place that it is not where the pose says; that may be all that it differs in.
         touched: numbers of the records changed since it was forked.
     """
 
     __slots__ = (
-        "at", "chances", "counts", "here", "kinds", "links", "origin", "periods", "places", "scheme", "shown", "size",
-        "touched", "undo", "weight",
+        "apart", "at", "chances", "counts", "crowd", "digest", "here", "kinds", "links", "origin", "periods", "places",
+        "scheme", "shown", "size", "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -52,8 +63,10 @@ class Hypothesis:
         self.undo: dict[tuple[int, int], tuple[float, float]] = {}
         self.here = NOWHERE
         self.weight = 0.0
-        self.size = self.links = 0
+        self.size = self.links = self.digest = 0
         self.origin: Hypothesis | None = None
+        self.apart = False
+        self.crowd: Mapping[int, float] | None = None
         self.touched: dict[int, None] = {}
         self.chances = Chances(self.counts, [1] * scheme.sensors)
 
@@ -65,7 +78,22 @@ class Hypothesis:
         other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
         other.undo = self.undo.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
-        other.origin, other.touched = None, {}
+        other.origin, other.touched, other.digest = None, {}, self.digest
+        other.apart, other.crowd = self.apart, self.crowd
+        return other
+
+    @property
+    def marks(self) -> tuple[int, int, int]:
+        """The state of the shared layers, for `as_of`."""
+        return self.places.mark, self.at.mark, self.shown.mark
+
+    def as_of(self, marks: tuple[int, int, int]) -> Hypothesis | None:
+        """A fork as it was when these were its marks, whatever was settled since; None where that is forgotten."""
+        places, at, shown = self.places.as_of(marks[0]), self.at.as_of(marks[1]), self.shown.as_of(marks[2])
+        if places is None or at is None or shown is None:
+            return None
+        other = self.fork()
+        other.places, other.at, other.shown = places, at, shown
         return other
 
     def settle(self) -> None:
@@ -81,7 +109,9 @@ class Hypothesis:
         displacements = self.scheme.displacements
         if displacements is None:
             return None
-        return self.canonical(place.frame, [x + d for x, d in zip(place.position, displacements[way], strict=True)])
+        position = tuple(map(add, place.position, displacements[way]))
+        periods = self.periods.get(place.frame) if self.periods else None
+        return place.frame, reduced(position, periods) if periods else position
 
     def canonical(self, frame: int, position: Sequence[int]) -> Key:
         """The one key of a position, which may be many in a chart that closes on itself."""
@@ -108,13 +138,17 @@ class Hypothesis:
             self.size += 1
             if place.position:
                 self.at[place.frame, place.position] = number
+            self._count(place, 1.0)
+            self.digest += digest(place)
         else:
-            self._count(before, -1.0)
-        self._count(place, 1.0)
-        for sensor in range(self.scheme.sensors):
-            was, now = -1 if before is None else before.label(sensor), place.label(sensor)
-            if was != now:
-                self._relabel(sensor, number, was, now)
+            self._recount(before.share, place.share)
+            if before.ways is not place.ways or before.sights is not place.sights:
+                self.digest += digest(place) - digest(before)
+        if before is None or before.sights is not place.sights:
+            for sensor in range(self.scheme.sensors):
+                was, now = -1 if before is None else before.label(sensor), place.label(sensor)
+                if was != now:
+                    self._relabel(sensor, number, was, now)
         self.places[number] = place
         self.touched[number] = None
 
@@ -122,6 +156,7 @@ class Hypothesis:
         """Take a place away."""
         place = self.places[number]
         self._count(place, -1.0)
+        self.digest -= digest(place)
         for sensor in range(self.scheme.sensors):
             self._relabel(sensor, number, place.label(sensor), -1)
         if place.position and self.at.get((place.frame, place.position)) == number:
@@ -130,15 +165,16 @@ class Hypothesis:
         self.size -= 1
 
     def _count(self, place: Place, sign: float) -> None:
-        yes, no, share = self.counts.yes, self.counts.no, place.share
-        yes[OPEN] += sign * share.open
-        no[OPEN] += sign * share.blocked
-        yes[WAY_MISREAD] += sign * share.ways_wrong
-        no[WAY_MISREAD] += sign * share.ways_right
-        yes[SIGHT_MISREAD] += sign * share.sights_wrong
-        no[SIGHT_MISREAD] += sign * share.sights_right
-        yes[BESIDE] += sign * share.beside_open
-        no[BESIDE] += sign * share.beside_blocked
+        yes, no = self.counts.yes, self.counts.no
+        for (rate, true), value in zip(SHARES, place.share, strict=True):
+            (yes if true else no)[rate] += sign * value
+
+    def _recount(self, before: Share, after: Share) -> None:
+        if before is after:
+            return
+        yes, no = self.counts.yes, self.counts.no
+        for (rate, true), was, now in zip(SHARES, before, after, strict=True):
+            (yes if true else no)[rate] += now - was
 
     def _relabel(self, sensor: int, number: int, was: int, now: int) -> None:
         if was >= 0:
@@ -149,3 +185,15 @@ class Hypothesis:
             others = self.shown.get((sensor, now)) or ()
             self.shown[sensor, now] = (*others, number)
             self.kinds[sensor] += not others
+
+
+def settle_alike(hypotheses: Sequence[Hypothesis]) -> None:
+    """Share what hypotheses have in common."""
+    Layered.settle_alike([h.places for h in hypotheses])
+    Layered.settle_alike([h.at for h in hypotheses])
+    Layered.settle_alike([h.shown for h in hypotheses])
+
+
+def digest(place: Place) -> int:
+    """What a place adds to the digest of its map."""
+    return hash((place.label(), tuple([way.to == NOWHERE for way in place.ways])))

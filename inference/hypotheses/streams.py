@@ -16,11 +16,23 @@ T = TypeVar("T")
 
 
 class Writer:
-    """Two growing rows: whole numbers, and others."""
+    """Two growing rows: whole numbers, and others; a record that occurs many times is written once, in front."""
 
     def __init__(self) -> None:
         self.whole: list[int] = []
         self.real: list[float] = []
+        self._records: dict[int, tuple[int, Place]] = {}
+
+    def record(self, place: Place) -> None:
+        """Name a record."""
+        self.whole.append(self._records.setdefault(id(place), (len(self._records), place))[0])
+
+    def rows(self) -> dict[str, NDArray[Any]]:
+        """Both rows, the records in front."""
+        front = Writer()
+        front.many([place for _, place in self._records.values()], front.place)
+        whole, real = front.whole + self.whole, front.real + self.real
+        return {"whole": np.array(whole, np.int64), "real": np.array(real, np.float64)}
 
     def many(self, items: Iterable[T], write: Callable[[T], object]) -> None:
         """How many there are, then each."""
@@ -38,10 +50,11 @@ class Writer:
             self.real += way[:3]
             self.whole += way[3:]
         for counts in place.sights:
-            self.many(counts.items(), self._count)
+            self.many(counts.items(), self.count)
         self.real += place.share
 
-    def _count(self, item: tuple[int, float]) -> None:
+    def count(self, item: tuple[int, float]) -> None:
+        """A whole number, and how much of it."""
         self.whole.append(item[0])
         self.real.append(item[1])
 
@@ -56,7 +69,7 @@ class Writer:
             elif reading is None:
                 self.whole.append(-1)
             else:
-                self.many(reading.items(), self._count)
+                self.many(reading.items(), self.count)
 
 
 class Reader:
@@ -69,6 +82,18 @@ class Reader:
     def __init__(self, whole: Any, real: Any) -> None:
         self.whole, self.real = _row(whole, "whole", np.int64), _row(real, "real", np.float64)
         self._at = self._at_real = 0
+        self._records: list[Place] = []
+
+    def records(self, scheme: WayScheme) -> None:
+        """Read the records, which stand in front."""
+        self._records = self.many(lambda: self.place(scheme))
+
+    def record(self) -> Place:
+        """The record that is named."""
+        index = self.numbers(1)[0]
+        if index < 0:
+            raise CogmapError(DAMAGED.format("it names a record that it has not"))
+        return self._records[index]
 
     def numbers(self, count: int) -> list[int]:
         """So many whole numbers."""
@@ -100,7 +125,7 @@ class Reader:
         recent = self.row()
         into = frozenset((source, way) for source, way in self.many(lambda: self.numbers(2)))
         ways = [self._way() for _ in range(scheme.count)]
-        sights = tuple(self._counts() for _ in range(scheme.sensors))
+        sights = tuple(self.counts() for _ in range(scheme.sensors))
         return Place(sights, tuple(ways), frame, tuple(position), tuple(recent), into, Share(*self.reals(8)))
 
     def _way(self) -> Way:
@@ -108,7 +133,8 @@ class Reader:
         walks, to = self.numbers(2)
         return Way(net, opened, blocked, walks, to)
 
-    def _counts(self) -> SightCounts:
+    def counts(self) -> SightCounts:
+        """Whole numbers, and how much of each."""
         return dict(self.many(lambda: (self.numbers(1)[0], self.reals(1)[0])))
 
     def sensed(self, scheme: WayScheme) -> tuple[int, Sensed]:

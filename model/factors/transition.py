@@ -13,7 +13,6 @@ from ..changes import Store
 from ..column import Column
 from ..dirichlet import EMPTY, SparseDirichlet
 from ..errors import CogmapError
-from ..information import information
 from ..percept import Percept
 from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table, parts_of
 
@@ -131,7 +130,7 @@ class Transition(ModelFactor):
         keys, alpha = keys.reshape(shape), alpha.reshape(shape)
         visited: NDArray[np.bool_] = self.context.visits.visited.values[places]
         shown = visited[:, None] & (keys == ELSEWHERE).any(axis=2)
-        return (information(alpha, steps) * ~shown[..., None]).sum(axis=1)
+        return (self.context.information(alpha, steps) * ~shown[..., None]).sum(axis=1)
 
     def tables(self, support: Support) -> Iterable[Table]:
         """B_s[a](s_t, s_t-1), times the coupling; any visited place where the agent was moved."""
@@ -159,7 +158,8 @@ class Transition(ModelFactor):
             return
         forward, reverse = self.rates.possible
         self.add(next_, previous, action, weight * forward)
-        self.add(previous, next_, self.motions.inverse[action], weight * reverse)
+        if self.motions.inverse[action] >= 0:  # else nobody knows what undoes it
+            self.add(previous, next_, self.motions.inverse[action], weight * reverse)
         if weight > 0.5:
             self.walked.set((previous, action), True)
 
@@ -172,8 +172,7 @@ class Transition(ModelFactor):
         if beyond is None:
             return
         self.add(beyond, place, action, weight * forward)
-        if changed:
-            inverse = self.motions.inverse[action]
+        if changed and (inverse := self.motions.inverse[action]) >= 0:
             self.raise_to(beyond, beyond, inverse, -weight * reverse)
             self.add(place, beyond, inverse, weight * reverse)
 
