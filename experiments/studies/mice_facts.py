@@ -9,7 +9,7 @@ from functools import cache
 from itertools import pairwise
 from pathlib import Path
 
-from ...agent import Settings
+from ...agent import Agent, Settings
 from ...behaviour import Ground, Route, load_ground, load_walks, new_agent, routes_of
 from ...model import CogmapError
 
@@ -155,12 +155,13 @@ def _way_home(bout: Sequence[int], ground: Ground) -> tuple[int, int]:
 
 
 def agent_trip(route: Route, ground: Ground, settings: Settings) -> tuple[int, int]:
-    """Moves from home to the port and back of an agent that was led along an animal's walk and then prefers these."""
+    """Moves to the port and back of an agent that was led along an animal's walk, and now wants nothing else."""
     places, port, home = route.places.tolist(), ground.find(PORT, "port"), ground.find(HOME, "home")
     if port not in places:
         raise CogmapError(f"{route.individual} never found the port; leave it out")
     end = places.index(home, places.index(port))
-    agent = new_agent(ground, look_ahead=settings.look_ahead)
+    settled = Settings(look_ahead=settings.look_ahead, information_weight=0.0)
+    agent = Agent(dict(ground.motions), settings=settled, seed=0)
     for observation in ground.observations(places[: end + 1]):
         agent.perceive(observation)
     names, at, moves = list(agent.map.motions.names), home, list[int]()
