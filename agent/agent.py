@@ -253,6 +253,7 @@ class Agent:
         self._learn(percept)
         state.open, state.acted, state.choice, self._plan = percept.passable, False, None, None
         state.steps += 1
+        self.map.growth.tidy()
         return self.belief
 
     @property

@@ -152,8 +152,8 @@ class GenerativeModel:
             there = self.pose.place_at(position)
             raise CogmapError(f"map: position {position} has place {there} already; use place_at")
         place = self._size
+        self.changes.append(Change(self, place, False, True))  # first, so that what is half done can be undone
         self.put(place, True)
-        self.changes.append(Change(self, place, False, True))
         self._log(step, "place", place, position, source, action)
         if position is not None:
             self._settle(place, position, step)
@@ -251,6 +251,15 @@ class GenerativeModel:
     def value(self, numbers: Sequence[float]) -> bool:
         """Whether a place exists, from a file."""
         return bool(numbers[0])
+
+    def savepoint(self) -> None:
+        """Nothing: see `savepoint.savepoint`."""
+
+    def level(self) -> None:
+        """Nothing."""
+
+    def go_back(self, point: None) -> None:
+        """Nothing."""
 
     def fits(self, where: Any, value: Any, places: int) -> bool:
         """Whether `put` can take this: the next place comes, or the last one goes."""

@@ -172,6 +172,13 @@ class ModelFactor:
     def grow(self, places: int) -> None:
         """Have room for so many places: new ones are appended, or the last are dropped."""
 
+    def savepoint(self) -> Any:
+        """What `go_back` needs of it besides its stores. Attributes of a class of your own are copied without it."""
+        return None
+
+    def go_back(self, point: Any) -> None:
+        """Be as it was, once its stores are."""
+
     def state(self) -> dict[str, Any]:
         """What a file needs of it besides its stores, as plain JSON values."""
         return {}

@@ -72,6 +72,20 @@ class Lattice(Pose):
         self.table.resize(places)
         self.position_of.resize(places)
 
+    def savepoint(self) -> tuple[int, Any]:
+        """How many positions there are, and the periods that they repeat with."""
+        return len(self.positions), getattr(self, "periods", ())
+
+    def go_back(self, point: tuple[int, Any]) -> None:
+        """Have the first so many positions only, and what lies beside each."""
+        count, self.periods = point
+        self.positions.cut(count)
+        self.places.resize(count)
+        self.beyond.resize(0)
+        self.beyond.resize(count)
+        for index, position in enumerate(self.positions):
+            self._connect(index, cast(Position, position))
+
     def state(self) -> dict[str, Any]:
         """The positions."""
         return {"positions": [encode(position) for position in self.positions]}
@@ -179,12 +193,15 @@ class Lattice(Pose):
         index = self.positions.add(position)
         self.places.resize(index + 1)
         self.beyond.resize(index + 1)
+        self._connect(index, position)
+        return index
+
+    def _connect(self, index: int, position: Position) -> None:
         for action in range(len(self.motions)):
             there = self.positions.find(self.motions.move(position, action))
             if there is not None:
                 self.beyond.values[index, action] = there
                 self.beyond.values[there, self.motions.inverse[action]] = index
-        return index
 
     def known(self, place: int) -> bool:
         """Whether it has a position."""
