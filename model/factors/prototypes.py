@@ -226,18 +226,6 @@ class Prototypes:
     def value(self, numbers: Sequence[float]) -> None:
         """Nothing."""
 
-    def savepoint(self) -> dict[str, NDArray[Any]]:
-        """Copies of all that it knows, since the log does not speak of it."""
-        return self.state()
-
-    def level(self) -> None:
-        """Nothing."""
-
-    def go_back(self, point: Mapping[str, NDArray[Any]]) -> None:
-        """Know what it knew."""
-        for name, part in point.items():
-            setattr(self, f"_{name}", part.copy())
-
     def fits(self, where: Any, value: Any, places: int) -> bool:
         """Never: no change of it is logged."""
         return False
