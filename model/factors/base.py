@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..changes import Changes, Store
+from ..dirichlet import SparseDirichlet
 from ..errors import CogmapError
 from ..growth_event import GrowthEvent
 from ..information import KnownInformation
@@ -178,6 +179,13 @@ class ModelFactor:
 
     def go_back(self, point: Any) -> None:
         """Be as it was, once its stores are."""
+
+    def blank(self, place: int) -> None:
+        """Know nothing of a place any more, as if it was just appended."""
+        for store in self.stores:
+            if isinstance(store, SparseDirichlet):
+                for row in range(place * store.rows_each, (place + 1) * store.rows_each):
+                    store.clear(row)
 
     def state(self) -> dict[str, Any]:
         """What a file needs of it besides its stores, as plain JSON values."""
