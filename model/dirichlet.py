@@ -239,6 +239,7 @@ class SparseDirichlet:
         """Take everything away from `row` but these outcomes, which have this prior and no evidence."""
         for slot in range(self._keys.shape[1]):
             kept = slot < len(keys)
+            self._set(row, slot, self._keys.item(row, slot), self._prior.item(row, slot), 0.0)
             self._set(row, slot, keys[slot] if kept else EMPTY, prior if kept else 0.0, 0.0)
 
     def evidence(self, row: int, key: int) -> float:

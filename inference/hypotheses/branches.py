@@ -86,6 +86,7 @@ class Walker:
 
     Attributes:
         floor: log weight below which branches need not be named.
+        surplus: how far above zero a log-likelihood may be.
         unseen: places that are thought to be there but were never seen.
         put_there: log P(the agent was moved into a certain place).
         arrived: places that a branch leads to with no change of the map.
@@ -97,6 +98,7 @@ class Walker:
         self._open: dict[int, float] = {}
         self.evidence: dict[int, float] = {}
         self.floor = -inf
+        self.surplus = 0.0 if sensed.others is None else inf
         self.unseen = unseen(h)
         self.put_there = (0.0 if sensed.told else log(self.chances.moved)) - log(h.size + self.unseen)
         self.arrived: set[int] = set()
@@ -112,8 +114,10 @@ class Walker:
         stayed = h.weight + log(1.0 - chances.moved)
         if action is not None:
             yield from self._walk(action, stayed + log(1.0 - astray), 0.0)
-        yield self.stay(stayed, astray, each)
-        if each > 0.0 and stayed + log(each) > self.floor:
+        staying = self.stay(stayed, astray, each)
+        if staying is not None:
+            yield staying
+        if each > 0.0 and stayed + log(each) > self.floor - self.surplus:
             for way in range(h.scheme.count):
                 if way != action:
                     yield from self._walk(way, stayed + log(each), 1.0)
@@ -126,8 +130,8 @@ class Walker:
             found = self._open[way] = probability(way_odds(self.h, self.h.here, self.place, way))
         return found
 
-    def stay(self, before: float, astray: float, each: float) -> Alternative:
-        """It is where it was: told to stay, blocked, failed, or put there."""
+    def stay(self, before: float, astray: float, each: float) -> Alternative | None:
+        """It is where it was: told to stay, blocked, failed, or put there; None if that is below the floor."""
         action, fails = self.sensed.action, self.chances.fails
         self.arrived.add(self.h.here)
         stays = [1.0 - self.open(way) * (1.0 - fails) for way in range(self.h.scheme.count)]
@@ -136,6 +140,8 @@ class Walker:
         failed = 0.0 if action is None else (1.0 - astray) * self.open(action) * fails
         put_here = exp(self.put_there + self.h.weight - before)
         total = given + lost + put_here
+        if before + log(total) <= self.floor - self.surplus:
+            return None
         weight = before + log(total) + self.at(self.h.here)
         parts = lost / total, failed / total, put_here / total
         return Alternative(weight, self.h, NOWHERE, self.h.here, False, *parts)
@@ -144,11 +150,11 @@ class Walker:
         h, p = self.h, self.open(way) * (1.0 - self.chances.fails)
         before += log(p)
         lead = leads(h, h.here, self.place, way)
-        if lead.to != NOWHERE:
+        if lead.to != NOWHERE and max(before, self.h.weight + self.put_there) + log(2.0) > self.floor - self.surplus:
             yield self.along(way, lead, before, astray)
-        if lead.new > 0.0 and before + log(lead.new) > self.floor:
+        if lead.new > 0.0 and before + log(lead.new) > self.floor - self.surplus:
             yield self.new(way, before + log(lead.new), astray)
-        if lead.off > 0.0 and before + log(lead.off) > self.floor:
+        if lead.off > 0.0 and before + log(lead.off) > self.floor - self.surplus:
             yield self.off(way, lead, before, astray)
 
     def off(self, way: int, lead: Lead, before: float, astray: float) -> Alternative:
@@ -183,7 +189,7 @@ class Walker:
 
     def _moved(self) -> Iterator[Alternative]:
         h, each = self.h, self.h.weight + self.put_there
-        if each + log(max(self.unseen, 1.0)) <= self.floor:
+        if each + log(h.size + self.unseen) <= self.floor - self.surplus:
             return
         found = {k: each + self.at(k) for k in look_alikes(h, self.sensed) if k not in self.arrived}
         if len(found) > CROWD:

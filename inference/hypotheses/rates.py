@@ -62,7 +62,7 @@ CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.1, 0.5, 20.0))
 
 RATE_PRIORS = (
     _beta("open", 1.0, 1.0, "a way is open"),
-    _beta("sight_misread", 0.5, 20.0, "a sight is read as another"),
+    RatePrior("sight_misread", "a sight is read as another", CALM_OR_NOT),
     _beta("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
     RatePrior("fails", "a move through an open way fails", CALM_OR_NOT),
     RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),

@@ -17,8 +17,8 @@ from .weighing import seating
 MARGIN = 3
 """Steps before and after a visit that are replayed with it."""
 
-SELDOM = 4
-"""Visits from which on a place is not doubted any more."""
+SELDOM = 8
+"""Visits from which on a place is not doubted any more; the times of fewer are all known."""
 
 LARGEST = 64
 """Places of a fragment that is doubted as a whole."""

@@ -220,7 +220,7 @@ class Tracker:
         """What is kept: while nothing is in doubt the best one alone, or else all, with what was passed over before."""
         step = Past(self.time, previous, previous.marks, self.labels, 0.0)
         if self._clear and len(found) > 1:
-            floor = found[0].weight - wide
+            floor = found[0].weight - drop
             again = self._looked_back((*self._past, step), floor, drop, wide)
             found = merged(found, [*again, *(fold for h in again for fold in self._folds(h, floor))])
             self._clear, self._quiet = False, 0
@@ -291,10 +291,17 @@ class Tracker:
             self._doubted = len(self._doubts)
         self._doubted -= 1
         number = self._doubts[self._doubted]
-        if h.places.get(number) is not None and (numbers := doubted(h, number, self.history)):
+        place = h.places.get(number)
+        if place is None or self._tried.get(key := (number, number, False, 0), NEVER).blocks(h, self.time):
+            return
+        if numbers := doubted(h, number, self.history):
             other = without(h, numbers, self.history, floor=h.weight - drop)
             if other is not None:
                 yield other
+            else:
+                before = self._tried.get(key)
+                self._overwritten.append((key, before))
+                self._tried[key] = (before or NEVER).again(h, self.time, contradicted=True)
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
         """The foldings that are probable enough."""

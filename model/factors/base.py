@@ -173,19 +173,19 @@ class ModelFactor:
     def grow(self, places: int) -> None:
         """Have room for so many places: new ones are appended, or the last are dropped."""
 
-    def savepoint(self) -> Any:
-        """What `go_back` needs of it besides its stores. Attributes of a class of your own are copied without it."""
-        return None
-
-    def go_back(self, point: Any) -> None:
-        """Be as it was, once its stores are."""
-
     def blank(self, place: int) -> None:
         """Know nothing of a place any more, as if it was just appended."""
         for store in self.stores:
             if isinstance(store, SparseDirichlet):
                 for row in range(place * store.rows_each, (place + 1) * store.rows_each):
                     store.clear(row)
+
+    def savepoint(self) -> Any:
+        """What `go_back` needs of it besides its stores. Attributes of a class of your own are copied without it."""
+        return None
+
+    def go_back(self, point: Any) -> None:
+        """Be as it was, once its stores are."""
 
     def state(self) -> dict[str, Any]:
         """What a file needs of it besides its stores, as plain JSON values."""

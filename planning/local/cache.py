@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,9 +87,25 @@ class LocalCache:
     Args:
         map_: the map.
         visits: visits, at most, that plans ask the information of: N.
+
+    Attributes:
+        links: how often it has changed where a way most probably leads.
+        found: what a search of the map found last, for the next one to go on from.
     """
 
-    __slots__ = ("_beside", "_cuts", "_map", "_outcomes", "_read", "_sights", "_unseen", "_ways", "visits")
+    __slots__ = (
+        "_beside",
+        "_cuts",
+        "_map",
+        "_outcomes",
+        "_read",
+        "_sights",
+        "_unseen",
+        "_ways",
+        "found",
+        "links",
+        "visits",
+    )
 
     def __init__(self, map_: MapView, visits: int) -> None:
         self.visits = visits
@@ -99,6 +116,8 @@ class LocalCache:
         self._outcomes: list[int] = []
         self._cuts: dict[Key, Cut] = {}
         self._unseen: Floats | None = None
+        self.links = 0
+        self.found: Any = None
 
     def check(self, map_: MapView, look_ahead: int) -> None:
         """Raise `CogmapError` unless it is of this map, and tells of enough visits for this look-ahead."""
@@ -113,18 +132,28 @@ class LocalCache:
         ways, _ = map_.changed_places(read, map_.B_s, map_.visits)
         tables = [sensor.table for sensor in map_.sights_sensed]
         sights, self._read = map_.changed_places(read, map_.A_p, *tables)
-        self._ways.forget(ways)
-        if ways is None:
-            self._beside.clear()
-        for place in ways or ():
-            self._beside.pop(place, None)
-        if ways is None or ways:
-            self._cuts.clear()
+        self._forget_ways(ways)
         outcomes = [table.outcomes for table in tables]
         if outcomes != self._outcomes:
             sights, self._unseen = None, None
         self._sights.forget(sights)
         self._outcomes = outcomes
+
+    def _forget_ways(self, places: Collection[int] | None) -> None:
+        """What is known of the ways of these places, or of all."""
+        if places is None:
+            self._ways.forget()
+            self._beside.clear()
+            self._cuts.clear()
+            self.links += 1
+        elif places:
+            known, last = self._ways.known(places), len(self._map.places)
+            before, gone = self._ways.column(2, known), (known >= last).any()
+            self._ways.forget(places)
+            for place in places:
+                self._beside.pop(place, None)
+            self._cuts.clear()
+            self.links += bool(gone) or not np.array_equal(before, self._ways.column(2, known))
 
     def ways(self, places: Ints) -> WayRows:
         """Of these places, and a row of zeros at the end."""
