@@ -206,6 +206,12 @@ class SparseDirichlet:
             self._set(row, slot, key, self._prior.item(row, slot), after)
         return after - before
 
+    def clear(self, row: int, keys: Sequence[int] = (), prior: float = 0.0) -> None:
+        """Take everything away from `row` but these outcomes, which have this prior and no evidence."""
+        for slot in range(self._keys.shape[1]):
+            kept = slot < len(keys)
+            self._set(row, slot, keys[slot] if kept else EMPTY, prior if kept else 0.0, 0.0)
+
     def evidence(self, row: int, key: int) -> float:
         """Evidence for `key` in `row`, prior left out."""
         keys = self._keys[row].tolist()

@@ -41,6 +41,12 @@ class Visits:
             self.put(place, True)
             self._changes.append(Change(self, place, False, True))
 
+    def forget(self) -> None:
+        """The place that was entered last for the first time was not."""
+        place = self.order.values.item(-1)
+        self.put(place, False)
+        self._changes.append(Change(self, place, True, False))
+
     def put(self, where: int, value: bool) -> None:
         """The last visited place, or the next one, without telling the log."""
         if value:

@@ -32,7 +32,7 @@ class Hypothesis:
         weight: log posterior weight.
         size, links: number of places, and of ways between them (both directions are one).
         chances: the rates expected at this step.
-        origin: while a step is taken in, the hypothesis that this one only extends.
+        origin: the hypothesis before the last step, if this one only extends it.
         touched: numbers of the records changed since it was forked.
     """
 

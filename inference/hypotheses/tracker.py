@@ -90,7 +90,7 @@ class Tracker:
         else:
             self.hypotheses = [self._first(sensed)]
         for h in self.hypotheses:
-            h.chances, h.origin = Chances(h.counts, self.labels, size=h.size), None
+            h.chances = Chances(h.counts, self.labels, size=h.size)
         self.time += 1
         return self.evidence
 
@@ -167,6 +167,7 @@ class Tracker:
         self._settle()
         previous, drop = self.hypotheses[0], -log(self.options.least)
         for h in self.hypotheses:
+            h.origin = None  # what went before is not kept
             if h.chances.labels != self.labels:
                 h.chances = Chances(h.counts, self.labels, size=h.size)
         happened = self._happened(sensed, drop)
