@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from ..inference import Belief
 from ..model import CognitiveMap, Growth, Percept, Ways, Whereabouts
+from .mirror import Doors, passable
 from .settings import Settings
-
-Doors = tuple[bool | None, ...]
-"""For each action whether its way is believed open; None where nothing is known of it."""
 
 
 class Mapper:
@@ -47,13 +45,12 @@ class Mapper:
             doors: of the most probable place, as all looks at them say.
             step: the time step.
         """
-        map_, place, weight = self._map, belief.place, belief.message.certainty
+        map_, place, weight, open_ = self._map, belief.place, belief.message.certainty, passable(doors)
         if percept.action is not None:
             for previous, next_, walked in zip(*(part.tolist() for part in belief.pairwise), strict=True):
-                if previous != next_ or doors[percept.action] is False:  # else the move failed
+                if previous != next_ or not open_[percept.action]:  # else the move failed
                     map_.transitions.learn(previous, percept.action, next_, walked)
         map_.mark_visited(place)
-        open_ = tuple(door is not False for door in doors)  # where nobody knows, something may lie beyond
         map_.recall(self._growth.look(map_, Whereabouts(belief.places), open_, step=step))
         map_.learn(place, {name: told for name, told in percept.readings.items() if name != self._ways.name}, weight)
         self._ways.learn(place, doors, weight)

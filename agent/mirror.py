@@ -10,20 +10,31 @@ from ..model import CognitiveMap, Growth, Position, Ways, Whereabouts
 WALKS = 3
 """Walks along a way from which on more of them add nothing to its counts."""
 
+SURE = 0.9
+"""From this probability on a way is taken to be open, or shut."""
+
+Doors = tuple[bool | float | None, ...]
+"""For each action whether its way is believed open, or how much so; None where nothing is known of it."""
+
+
+def passable(doors: Doors) -> tuple[bool, ...]:
+    """For each action whether something may lie beyond: where nothing is known of its way, it may."""
+    return tuple(door is None or door > 0.5 for door in doors)
+
 
 class Mirror:
     """The places of a hypothesis, and what it knows of them, in a map.
 
     Attributes:
         places: by number of a place of the hypothesis, the place of the map.
-        current: whether the map says all that the hypothesis says.
+        missed: the places of the hypothesis of which the map was not taught what the last steps said.
         ways: what teaches the map which ways are open.
     """
 
     def __init__(self, map_: CognitiveMap, growth: Growth, actions: Sequence[int]) -> None:
         self._map, self._growth, self._actions = map_, growth, actions
         self.places: dict[int, int] = {}
-        self.current = True
+        self.missed: set[int] = set()
         self._records: dict[int, Place] = {}
         found = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Ways)]
         self.ways = found[0] if found else map_.unsensed_ways()
@@ -89,14 +100,14 @@ class Mirror:
         numbers = [number for number, at in self.places.items() if at == place]
         return self._records[numbers[0]].recent if numbers and numbers[0] in self._records else ()
 
-    def doors(self, h: Hypothesis, number: int) -> tuple[bool | None, ...]:
-        """For each action whether its way is believed open; None where nothing is known of it."""
+    def doors(self, h: Hypothesis, number: int) -> Doors:
+        """For each action whether its way is believed open, or how much so; None where nothing is known of it."""
         map_, record = self._map, h.places[number]
-        doors: list[bool | None] = [True] * len(map_.motions)
+        doors: list[bool | float | None] = [True] * len(map_.motions)
         for way, action in enumerate(self._actions):
             known = record.ways[way]
             heard = known.net or known.walks or h.neighbour(record, way) != NOWHERE
-            doors[action] = open_probability(h, number, way) > 0.5 if heard else None
+            doors[action] = _sure(open_probability(h, number, way)) if heard else None
         return tuple(doors)
 
     # -- following -----------------------------------------------------------------------------------------
@@ -110,6 +121,14 @@ class Mirror:
             touched: the places of the hypothesis that the step has changed.
         """
         self.places[h.here] = place
+        self._note(h, touched)
+
+    def miss(self, h: Hypothesis, touched: Iterable[int]) -> None:
+        """The map was not taught the last step."""
+        self.missed |= {h.here, *touched}
+        self._note(h, touched)
+
+    def _note(self, h: Hypothesis, touched: Iterable[int]) -> None:
         for number in {h.here, *touched}:
             self._records[number] = h.places[number]
 
@@ -120,7 +139,7 @@ class Mirror:
             Where the places of the map are now that it was built anew, those that are gone left out; None where only
             what is known of its places has changed.
         """
-        changed = [number for number in h.places if h.places[number] is not self._records.get(number)]
+        changed = [number for number in h.places if number in self.missed or self._differs(h, number)]
         if self._fits(h, changed):
             for number in changed:
                 if number not in self.places:
@@ -132,8 +151,12 @@ class Mirror:
         else:
             moved = self._rebuild(h, step=step)
         self._records = {number: h.places[number] for number in h.places}
-        self.current = True
+        self.missed = set()
         return moved
+
+    def _differs(self, h: Hypothesis, number: int) -> bool:
+        now, before = h.places[number], self._records.get(number)
+        return now is not before and now != before
 
     def _fits(self, h: Hypothesis, changed: Sequence[int]) -> bool:
         """Whether no place of the map is too many, or elsewhere than the hypothesis has it."""
@@ -216,7 +239,7 @@ class Mirror:
             self._link(h, number)
         for number in numbers:
             place, doors = self.places[number], self.doors(h, number)
-            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), self._seen(doors), step=step))
+            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), passable(doors), step=step))
             self._teach_place(h, number, doors)
         for number in numbers:
             self._walk(h, number)
@@ -233,7 +256,7 @@ class Mirror:
             if map_.beyond(place, action) != neighbour:
                 map_.transitions.lead(place, action, neighbour)
 
-    def _teach_place(self, h: Hypothesis, number: int, doors: tuple[bool | None, ...]) -> None:
+    def _teach_place(self, h: Hypothesis, number: int, doors: Doors) -> None:
         map_, place, record = self._map, self.places[number], h.places[number]
         for sensor, counts in zip(map_.sights_sensed, record.sights, strict=False):
             for label, count in counts.items():
@@ -249,13 +272,13 @@ class Mirror:
                 for _ in range(min(known.walks, WALKS)):
                     map_.transitions.learn(place, action, self.places[known.to], 1.0)
 
-    def _seen(self, doors: tuple[bool | None, ...]) -> tuple[bool, ...]:
-        """Where nothing is known of a way, something may lie beyond it."""
-        return tuple(door is not False for door in doors)
-
     # -- files ---------------------------------------------------------------------------------------------
 
-    def restore(self, h: Hypothesis, places: Mapping[int, int], *, current: bool) -> None:
-        """Take over which place is which, as the map has them."""
-        self.places, self.current = dict(places), current
+    def restore(self, h: Hypothesis, places: Mapping[int, int], *, missed: Iterable[int] = ()) -> None:
+        """Take over which place is which, as the map has them, and of which it was not taught the last steps."""
+        self.places, self.missed = dict(places), set(missed)
         self._records = {number: h.places[number] for number in h.places}
+
+
+def _sure(p: float) -> bool | float:
+    return p if 1.0 - SURE < p < SURE else p > 0.5

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import exp, log
+from math import exp
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from ..inference import Belief, Hypothesis, Message, RateOf, Tracker, TrackerOpt
 from ..model import CognitiveMap, Growth, Percept
 from .hypotheses import MapHypothesis, compared
 from .knowing import records_of
-from .mirror import Mirror
+from .mirror import Doors, Mirror, passable
 from .sensing import Sensing
 
 Arrays = dict[str, NDArray[Any]]
@@ -65,13 +65,13 @@ class Recognition:
         """
         before, best = self.followed, self.tracker.best
         candidates = [h for h in self.tracker.hypotheses if self._goes_on(h, belief.place)]
-        agreed = bool(candidates) and (candidates[0] is best or best.weight < log(certainty))
+        agreed = bool(candidates) and (candidates[0] is best or exp(best.weight) < certainty)
         self.followed = candidates[0] if agreed else best
         self.moved = self._moved(before)
         return agreed
 
     def _goes_on(self, h: Hypothesis, place: int) -> bool:
-        goes_on = h.origin is self.followed and self.mirror.current
+        goes_on = h.origin is self.followed and not self.mirror.missed
         return goes_on and self.mirror.grows(h, place)
 
     def _moved(self, before: Hypothesis | None) -> bool:
@@ -87,14 +87,14 @@ class Recognition:
         return self.mirror.places[self._now.here]
 
     @property
-    def doors(self) -> tuple[bool | None, ...]:
-        """For each action whether its way is believed open here; None where nothing is known of it."""
+    def doors(self) -> Doors:
+        """For each action whether its way is believed open here, or how much so; None where nothing is known of it."""
         return self.mirror.doors(self._now, self._now.here)
 
     def open(self, percept: Percept) -> tuple[bool, ...]:
         """For each action whether its way may be open now: neither sensed nor believed shut."""
         sensed = percept.passable or (True,) * len(self._map.motions)
-        return tuple(is_open and door is not False for is_open, door in zip(sensed, self.doors, strict=True))
+        return tuple(is_open and door for is_open, door in zip(sensed, passable(self.doors), strict=True))
 
     def compared(self) -> tuple[MapHypothesis, ...]:
         """Every hypothesis, the most probable first, beside the one that is followed."""
@@ -103,7 +103,7 @@ class Recognition:
 
     def missed(self) -> None:
         """The map was not taught the last step."""
-        self.mirror.current = False
+        self.mirror.miss(self._now, self._now.touched)
 
     def grown(self, place: int) -> bool:
         """The map was taught the last step, in this place; whether it is what the hypothesis says."""
@@ -149,7 +149,7 @@ class Recognition:
         arrays |= {f"tracker.{name}": values for name, values in tracker[1].items()}
         places = [[number, place] for number, place in mirror.places.items()]
         followed = next((k for k, h in enumerate(self.tracker.hypotheses) if h is self.followed), None)
-        own = {"places": places, "current": mirror.current, "followed": followed, "moved": self.moved}
+        own = {"places": places, "missed": sorted(mirror.missed), "followed": followed, "moved": self.moved}
         return {"tracker": tracker[0], **own}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
@@ -164,7 +164,7 @@ class Recognition:
         places = {int(number): int(place) for number, place in state["places"]}
         self.followed = None if state["followed"] is None else self.tracker.hypotheses[int(state["followed"])]
         if self.followed is not None:
-            self.mirror.restore(self.followed, places, current=bool(state["current"]))
+            self.mirror.restore(self.followed, places, missed=map(int, state["missed"]))
         self.moved = bool(state["moved"])
 
     def know(self, here: int, *, step: int) -> None:
@@ -180,7 +180,7 @@ class Recognition:
             options=self.tracker.options,
         )
         self.followed = self.tracker.best
-        self.mirror.restore(self.followed, places, current=True)
+        self.mirror.restore(self.followed, places)
 
     def _weights(self) -> list[tuple[Hypothesis, float]]:
         others = [h for h in self.tracker.hypotheses if h is not self.followed]

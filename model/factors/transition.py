@@ -157,7 +157,11 @@ class Transition(ModelFactor):
 
     def link(self, place: int, action: int, neighbour: int) -> None:
         """What lies beyond a door has become a place of the map: its slot gets the name."""
-        self.table.rename(self.row(place, action), ELSEWHERE, neighbour)
+        row = self.row(place, action)
+        if neighbour in self.table.concentrations(row):
+            self.table.unite(row, ELSEWHERE, neighbour)
+        else:
+            self.table.rename(row, ELSEWHERE, neighbour)
 
     def lead(self, place: int, action: int, neighbour: int) -> None:
         """What lies beyond a way is this place, whatever was thought before."""
