@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from .agent import Agent
+from .following import Followed, follow
 from .settings import Settings
 from .state import GivenPreferences
 from .storage import read_header
 from .trace import StepRecord
 
-__all__ = ["Agent", "GivenPreferences", "Settings", "StepRecord", "read_header"]
+__all__ = ["Agent", "Followed", "GivenPreferences", "Settings", "StepRecord", "follow", "read_header"]

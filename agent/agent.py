@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..inference import Belief, RateOf, advance, begin
 from ..model import (
+    STEPS,
     CogmapError,
     CognitiveMap,
     FactorGraph,
@@ -32,6 +33,7 @@ from ..model import (
 )
 from ..planning import LocalCache, Plan, Planner
 from . import storage
+from .following import Followed, follow
 from .hypotheses import MapHypothesis
 from .known_map import KnownMap
 from .mapper import Mapper
@@ -49,6 +51,9 @@ if TYPE_CHECKING:
     import networkx as nx
 
 Seed = int | np.random.SeedSequence | None
+
+KEEP = 10_000
+"""Steps of which the trace and the log of growth keep everything, unless told otherwise."""
 
 
 class Agent:
@@ -71,13 +76,15 @@ class Agent:
             have what each sensor senses there under its name, and maybe a `position`; edges say in `way` which action
             they are. Ways that it does not have are shut. Places get numbers in its order; where in it the agent wakes
             up it finds out.
+        keep: of so many last steps at least `trace` has every record and `map.growth` every event, of those before it
+            what is still there; None of all of them, however many.
 
     Attributes:
         map: what it believes the world to be.
         growth: its growth rule.
         planner: its planner.
         rng: the generator.
-        trace: one record a step that was answered.
+        trace: one record a step that was answered; see `keep`.
 
     Raises:
         CogmapError: motions, parts or settings that make no sense.
@@ -93,6 +100,7 @@ class Agent:
         planner: Planner | None = None,
         settings: Settings | None = None,
         seed: Seed = None,
+        keep: int | None = KEEP,
         map: nx.Graph[Any] | str | PathLike[str] | None = None,
     ) -> None:
         known = None if map is None else KnownMap.of(map)
@@ -101,6 +109,7 @@ class Agent:
                 raise CogmapError("agent: it has no motions; give world.motions, or {name: displacement}")
             motions = known.motions
         self._assemble(motions, sensors, pose, growth, planner, settings or Settings(), seed)
+        self.keep = keep
         if known is None:
             self.growth.begin(self.map, step=0)
         else:
@@ -156,6 +165,18 @@ class Agent:
     def settings(self) -> Settings:
         """Its settings; they never change."""
         return self._settings
+
+    @property
+    def keep(self) -> int | None:
+        """Steps of which trace and log of growth keep everything; may be set at any time, and is not saved."""
+        return self._keep
+
+    @keep.setter
+    def keep(self, steps: int | None) -> None:
+        whole = isinstance(steps, int | np.integer) and not isinstance(steps, bool)
+        if steps is not None and not (whole and steps >= STEPS):
+            raise CogmapError(f"agent: keep is {steps!r}; give a whole number of {STEPS} steps or more, or None")
+        self._keep = self.map.growth.keep = steps
 
     @property
     def steps(self) -> int:
@@ -229,6 +250,10 @@ class Agent:
                 have.
         """
         self._state.preferences = given_preferences(sights, places, sensors, self.map)
+
+    def follow(self, walk: Iterable[Mapping[str, Any]]) -> Iterator[Followed]:
+        """Be taken along a walk that somebody recorded; see `following.follow`."""
+        return follow(self, walk)
 
     def moved(self) -> None:
         """Be told that it was moved: the next observation is from anywhere, whatever action was answered last."""
@@ -317,6 +342,8 @@ class Agent:
             revised=state.revised,
         )
         self.trace.append(record)
+        if self._keep is not None and len(self.trace) >= 2 * self._keep:
+            del self.trace[: -self._keep]
         state.action, state.acted = plan.action, True
         return plan.action
 
@@ -392,6 +419,7 @@ class Agent:
         motions = dict(zip(header["motions"]["names"], header["motions"]["displacements"], strict=True))
         saved = Settings.from_dict(header["settings"])
         agent._assemble(motions, *made, settings or saved, None)
+        agent.keep = KEEP
         restore_map(agent.map, header["map"], arrays)
         agent.rng.bit_generator.state = header["rng"]
         agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)

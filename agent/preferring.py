@@ -7,10 +7,13 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..model import CogmapError, CognitiveMap
+from ..model import CogmapError, CognitiveMap, is_number
 from ..planning import Preferences
 from .settings import Settings
 from .state import GivenPreferences
+
+LARGEST = 1e9
+"""Of log preferences, in nats."""
 
 
 def given_preferences(sights: object, places: object, sensors: object, map_: CognitiveMap) -> GivenPreferences:
@@ -62,8 +65,9 @@ def _mapping(given: object) -> Mapping[Any, Any]:
 def _finite(given: object) -> dict[Hashable, float]:
     preferences = dict(_mapping(given))
     for wanted, value in preferences.items():
-        if not (isinstance(value, int | float | np.number) and np.isfinite(value)):
+        if not is_number(value, -LARGEST, LARGEST):
             raise CogmapError(
-                f"agent: preference {value!r} of {wanted!r} is not a finite number; give a log preference in nats"
+                f"agent: preference {value!r} of {wanted!r} is not a finite number; give a log preference in nats, "
+                f"{LARGEST:g} at most"
             )
     return preferences

@@ -129,10 +129,13 @@ class Recognition:
         mass, elsewhere = self.mirror.belief(self._weights(), here=self.mirror.places[self._now.here])
         places = np.array(sorted(mass), dtype=np.int64)
         q = np.array([mass[place] for place in places.tolist()])
+        told = map_.log_likelihood(places, percept)
         return Belief(
             message=Message(places, map_.pose.of(places), q / q.sum()),
-            evidence=self.tracker.evidence,
-            log_likelihood=map_.log_likelihood(places, percept),
+            evidence=-float(
+                np.log(np.sum(q / q.sum() * np.exp(-told)))
+            ),  # over these places: 1 / P(o) = E_Q[1 / P(o | s)]
+            log_likelihood=told,
             moved=float(self.moved),
             dropped=0.0,
             examined=True,

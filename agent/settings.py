@@ -9,6 +9,7 @@ import numpy as np
 
 from ..inference import ENGINES, FilterOptions, TrackerOptions
 from ..model import CogmapError, Priors, Rates, is_number
+from ..planning import MAX_LOOK_AHEAD
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,10 +60,12 @@ class Settings:
     def __post_init__(self) -> None:
         for name, kind in _NESTED.items():
             _check(isinstance(getattr(self, name), kind), name, getattr(self, name), f"use a {kind.__name__}")
-        for name in ("look_ahead", "starts", "window"):
+        for name, most in _MOST.items():
             value = getattr(self, name)
             whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
-            _check(whole and bool(value >= 1), name, value, "use a whole number of 1 or more")
+            _check(
+                whole and bool(1 <= value <= most), name, value, f"use a whole number of 1 or more, at most {most:,}"
+            )
         for names, (least, most) in _RANGES.items():
             for name in names.split():
                 value = getattr(self, name)
@@ -96,7 +99,8 @@ _NESTED: dict[str, type[Any]] = {
     "priors": Priors,
 }
 
-_TINY, _LARGE = 1e-300, 1e300
+_TINY, _LARGE = 1e-300, 1e9
+_MOST = {"look_ahead": MAX_LOOK_AHEAD, "starts": 1_000_000, "window": 100_000}
 _RANGES = {
     "precision collision_cost goal_weight information_weight": (0.0, _LARGE),
     "forgetting certainty": (0.0, 1.0),

@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .cells import Cell, Row, run_cell, run_cells
+    from .cells import Cell, Key, Row, kept_rows, run_cell, run_cells
     from .exploring import ExploreRun, exploration, explore, explore_many, frontier_steps, oracle_steps, summarise, walk
     from .goals import WEIGHT, check_goal, parse_goal
     from .judging import BELIEVED, Trail, Verdict, judge
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .pool import WorkerLostError, completed, map_seeds, map_tasks, workers
     from .records import Record, mean, std
     from .running import Moment, Run, run
-    from .session import Session, chart_of, default_steps, draw_start, explored
+    from .session import Session, chart_of, default_steps, draw_start, explored, set_out
     from .text import count, number, spread
 
 __all__ = [
@@ -29,6 +29,7 @@ __all__ = [
     "WEIGHT",
     "Cell",
     "ExploreRun",
+    "Key",
     "KidnapRun",
     "Ledger",
     "Maker",
@@ -58,6 +59,7 @@ __all__ = [
     "file_named",
     "frontier_steps",
     "judge",
+    "kept_rows",
     "kidnap",
     "kidnap_many",
     "kidnap_result",
@@ -74,6 +76,7 @@ __all__ = [
     "run",
     "run_cell",
     "run_cells",
+    "set_out",
     "spread",
     "std",
     "summarise",

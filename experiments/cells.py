@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from functools import partial
 from hashlib import sha256
 from importlib.metadata import version
 from itertools import chain
-from typing import Any, TypedDict, Unpack
+from typing import Any, Protocol, TypedDict, TypeVar, Unpack
 
 from ..agent import Settings
 from ..baselines import CscgSettings
@@ -72,6 +72,23 @@ class Row(Record):
         return self.world, self.layout, self.agent, self.growth, self.run.seed
 
 
+class KeptRow(Protocol):
+    """A row that a ledger can keep."""
+
+    @property
+    def key(self) -> Any:
+        """That of its task."""
+        ...
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON values."""
+        ...
+
+
+_Task = TypeVar("_Task")
+_Kept = TypeVar("_Kept", bound=KeptRow)
+
+
 class Options(TypedDict, total=False):
     """What rows are made with: settings of `cogmap` but for its growth, of the clone-structured graphs, most moves."""
 
@@ -95,10 +112,27 @@ def run_cells(
     Raises:
         CogmapError: a cell is bad or given twice, the ledger is of other settings, or a worker was killed.
     """
-    left = _checked(cells, options)
-    rows = [] if ledger is None else ledger.begin(Row.from_dict, **_made_with(options))
+    made_with = _made_with(options)
+    return kept_rows(partial(run_cell, **options), _checked(cells, options), Row.from_dict, ledger, executor, made_with)
+
+
+def kept_rows(
+    run: Callable[[_Task], _Kept],
+    tasks: Mapping[Any, _Task],
+    read: Callable[[dict[str, Any]], _Kept],
+    ledger: Ledger | None,
+    executor: Executor | None,
+    made_with: Mapping[str, Any],
+) -> Iterator[_Kept]:
+    """A row of each task, by its key: first those that the ledger has, then the others, each kept at once.
+
+    Raises:
+        CogmapError: the ledger was made with something else, `read` refuses one of its rows, or a worker was killed.
+    """
+    left = dict(tasks)
+    rows = [] if ledger is None else ledger.begin(read, cogmap=version("cogmap"), **made_with)
     kept = [row for row in rows if left.pop(row.key, None) is not None]
-    new = (row for _, row in completed(partial(run_cell, **options), list(left.values()), executor=executor))
+    new = (row for _, row in completed(run, list(left.values()), executor=executor))
     return chain(kept, new if ledger is None else _keeping(new, ledger))
 
 
@@ -115,7 +149,7 @@ def layout_digest(maze: Maze) -> str:
     return sha256("\n".join([*lines, *map(str, sorted(maze.walls))]).encode()).hexdigest()[:12]
 
 
-def _keeping(rows: Iterator[Row], ledger: Ledger) -> Iterator[Row]:
+def _keeping(rows: Iterator[_Kept], ledger: Ledger) -> Iterator[_Kept]:
     try:
         for row in rows:
             ledger.append(row.to_dict())
@@ -145,4 +179,4 @@ def _parts(options: Options, agent: str = "cogmap") -> Parts:
 def _made_with(options: Options) -> dict[str, Any]:
     parts, most = _parts(options), options.get("max_steps")
     own = {name: value for name, value in parts.to_dict().items() if name != "growth"}  # each row has its own
-    return {"cogmap": version("cogmap"), "settings": own, "cscg": parts.cscg.to_dict(), "max_steps": most}
+    return {"settings": own, "cscg": parts.cscg.to_dict(), "max_steps": most}

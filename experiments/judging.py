@@ -50,17 +50,19 @@ def judge(map_: CognitiveMap, chart: Chart, rooms: Mapping[int, Place], visited:
     """
     here = {room: place for place, room in rooms.items() if room is not None}
     one_to_one = len(here) == len(rooms) == int(map_.visited.sum()) and here.keys() == set(visited)
-    among, known, imagined = True, 0, _imagined(map_)
+    actions, imagined = len(map_.motions), _imagined(map_)
+    known, rows, ahead = 0, list[int](), list[int]()
     for room, place in here.items():
-        for action, ahead in enumerate(islice(chart.successors(room).values(), len(map_.motions))):
-            if ahead in here:
-                believed = map_.transition(here[ahead], place, action) >= BELIEVED
-                among &= believed
+        for action, other in enumerate(islice(chart.successors(room).values(), actions)):
+            if other in here:
+                rows.append(map_.row(place, action))
+                ahead.append(here[other])
             else:  # the room beyond was never entered: what is imagined there stands for it
-                believed = imagined.get((place, action), (0, 0.0))[1] >= BELIEVED
-            known += believed
+                known += imagined.get((place, action), (0, 0.0))[1] >= BELIEVED
+    believed = map_.B_s.probability(np.array(ahead, dtype=np.int64), np.array(rows, dtype=np.int64)) >= BELIEVED
     places = int(map_.visited.sum()) + len({to for to, _ in imagined.values()})
-    return Verdict(places, one_to_one and among, known / _transitions(chart))
+    known += int(believed.sum())
+    return Verdict(places, one_to_one and bool(believed.all()), known / _transitions(chart))
 
 
 class Trail:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..agent import Agent, Settings
 from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
-from ..model import GROWTHS, POSES, CogmapError, Pose, StaticGrowth
+from ..model import GROWTHS, POSES, CogmapError, Pose, Sensor, Sight, StaticGrowth, Ways
 from ..planning import CHOICES, POLICIES, MapGuided, Planner
 from ..worlds import Chart, HasChart, Motions, World, offered
 
@@ -99,9 +99,8 @@ class Parts:
             growth = StaticGrowth(len(chart.places)) if self.growth == StaticGrowth.name else GROWTHS[self.growth]()
             planner = Planner(policies=POLICIES[self.policies](), choice=CHOICES[self.choice]())
             number = int(seed.generate_state(1)[0])
-            return Agent(
-                motions, pose=self._pose(motions), growth=growth, planner=planner, settings=self.settings, seed=number
-            )
+            own: Any = {"sensors": _sensors(world), "pose": self._pose(motions), "growth": growth, "planner": planner}
+            return Agent(motions, **own, settings=self.settings, seed=number)
         if self.agent in CSCG:
             positions, how = CSCG[self.agent]
             seen = len(chart.places if positions else set(chart.sights.values()))
@@ -129,3 +128,12 @@ class Parts:
         pose = {} if self.pose is None else {"pose": self.pose}
         values = {**self.settings.to_dict(), **names, **pose, "places": places}
         return {name: values[name] for name in dict.fromkeys((*_FIRST, *values))}
+
+
+def _sensors(world: Any) -> list[Sensor] | None:
+    """A sensor for each that the world has; None where these are the usual two."""
+    space: Any = getattr(world, "observation_space", None)
+    names = [name for name in getattr(space, "spaces", ()) if name not in ("bearings", "displacement")]
+    if not names or sorted(names) == ["open", "sight"]:
+        return None
+    return [Ways() if name == "open" else Sight(name) for name in names if name != "ways"]

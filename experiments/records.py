@@ -55,10 +55,11 @@ class Record:
             if part.name not in left and "optional" not in part.metadata:
                 raise CogmapError(f"row has no {part.name}; {again}")
             kind, value = _KINDS[hint], left.pop(part.name, None)
-            room = isinstance(value, list) and list(map(type, cast(list[Any], value))) == [int, int]
-            if type(value) not in kind[1] and not (room and hint is Place):
+            listed = tuple(cast(list[Any], value)) if isinstance(value, list) else value
+            room = isinstance(listed, tuple) and list(map(type, cast(Any, listed))) == [int, int]
+            if type(listed) not in kind[1] and not (room and hint is Place):
                 raise CogmapError(f"row has {part.name} = {value!r}, not {kind[0]}; {again}")
-            made[part.name] = tuple(cast(list[int], value)) if room else value
+            made[part.name] = listed
         return cls(**made)
 
 
@@ -70,6 +71,9 @@ _KINDS: dict[Any, tuple[str, tuple[type, ...]]] = {
     float: ("a number", (int, float)),
     float | None: ("a number or null", (int, float, type(None))),
     bool | None: ("true, false or null", (bool, type(None))),
+    bool: ("true or false", (bool,)),
+    tuple[float, ...]: ("a list of numbers", (tuple,)),
+    dict[str, float]: ("numbers by name", (dict,)),
     Place: ("a room", (int, str)),  # or a pair of whole numbers
 }
 

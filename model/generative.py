@@ -14,6 +14,7 @@ from .errors import CogmapError
 from .factors import Displacement, Lattice, ModelFactor, Pose, Sensor, Sight, Transition, Ways
 from .factors.base import Context
 from .growth_event import GrowthEvent, GrowthKind
+from .growth_log import GrowthLog
 from .motions import Motions, Position
 from .percept import Percept
 from .rates import Priors, Rates
@@ -42,7 +43,7 @@ class GenerativeModel:
         transitions: where ways lead.
         displacement: the factor of being moved, or None.
         changes: the log of all that is written.
-        growth: everything that was ever added, in order.
+        growth: everything that was ever added, in order; see `GrowthLog.keep`.
         visits: which places were entered.
         A_o: counts of the first sensor that sees labels; every place shows the same where none does.
         A_p: counts of positions; empty where places have none.
@@ -67,7 +68,7 @@ class GenerativeModel:
     ) -> None:
         self.motions = motions
         self.changes = Changes()
-        self.growth: list[GrowthEvent] = []
+        self.growth = GrowthLog()
         self.visits = Visits(self.changes)
         self.transitions = Transition()
         self.pose = pose or Lattice()
@@ -297,3 +298,22 @@ class GenerativeModel:
             self.put(place, False)
             self.changes.append(Change(self, place, True, False))
         self._log(step, "retract", before)
+
+    def take_back(self, mark: int, *, step: int) -> None:
+        """Undo everything since `mark`; labels and positions that were met stay in their domains.
+
+        Raises:
+            CogmapError: that is longer ago than the log can undo.
+        """
+        entries, _ = self.changes.since(mark)
+        before = self._size
+        grown = [entry for entry in entries or () if isinstance(entry, GrowthEvent) and entry.index < before]
+        bound = [
+            event.index for event in reversed(grown) if event.kind in ("bind", "place") and event.label is not None
+        ]
+        lost = [(place, self.pose.position(place)) for place in dict.fromkeys(bound)]
+        self.changes.undo(mark)
+        for place, position in lost:
+            if position is not None:
+                self._log(step, "unbind", place, position)
+        self._log(step, "retract", before - self._size)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -58,19 +56,53 @@ def dirichlet_information(alpha: ArrayLike, steps: int, *, multiplicity: ArrayLi
     return np.cumsum(information, axis=-1)
 
 
-def information(alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:
-    """`dirichlet_information` of `[..., O]` concentrations, `[..., N + 1]` nats; rows met before are looked up."""
-    outcomes = alpha.shape[-1]
-    if outcomes == 1 and multiplicity is None:  # one outcome teaches nothing
-        return np.zeros((*alpha.shape[:-1], steps + 1))
-    many = np.ones_like(alpha) if multiplicity is None else multiplicity
-    packed = np.concatenate([alpha, many], axis=-1).tobytes()
-    width = 16 * outcomes
-    table = [_row_information(packed[i : i + width], steps) for i in range(0, len(packed), width)]
-    return np.array(table).reshape(*alpha.shape[:-1], steps + 1)
+class KnownInformation:
+    """`dirichlet_information` of rows that were met before is looked up; what is kept takes `most` bytes or so.
+
+    Args:
+        most: bytes; when they are full, the older half is forgotten.
+    """
+
+    __slots__ = ("_known", "_size", "most")
+
+    def __init__(self, most: int = 2**23) -> None:
+        self.most = most
+        self._known: dict[tuple[bytes, int], Floats] = {}
+        self._size = 0
+
+    def __call__(self, alpha: Floats, steps: int, multiplicity: Floats | None = None) -> Floats:
+        """`[..., N + 1]` nats of `[..., O]` concentrations and their multiplicities."""
+        outcomes = alpha.shape[-1]
+        if outcomes == 1 and multiplicity is None:  # one outcome teaches nothing
+            return np.zeros((*alpha.shape[:-1], steps + 1))
+        many = np.ones_like(alpha) if multiplicity is None else multiplicity
+        packed = np.concatenate([alpha, many], axis=-1).tobytes()
+        width = 16 * outcomes
+        table = [self._row(packed[i : i + width], steps) for i in range(0, len(packed), width)]
+        return np.array(table).reshape(*alpha.shape[:-1], steps + 1)
+
+    def __deepcopy__(self, memo: object) -> KnownInformation:
+        return KnownInformation(self.most)  # what it knows is no part of what a model believes
+
+    def _row(self, packed: bytes, steps: int) -> Floats:
+        found = self._known.get((packed, steps))
+        if found is None:
+            found = self._known[packed, steps] = _row_information(packed, steps)
+            self._size += _size(packed, found)
+            if self._size > self.most:
+                self._forget()
+        return found
+
+    def _forget(self) -> None:
+        for key in list(self._known)[: len(self._known) // 2 + 1]:
+            self._size -= _size(key[0], self._known.pop(key))
 
 
-@lru_cache(maxsize=1 << 14)
+def _size(packed: bytes, row: Floats) -> int:
+    """Bytes that a row takes with its key."""
+    return len(packed) + row.nbytes + 300
+
+
 def _row_information(packed: bytes, steps: int) -> Floats:
     """One row: its concentrations, then their multiplicities."""
     both = np.frombuffer(packed).reshape(2, -1)

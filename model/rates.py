@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import astuple, dataclass, fields
-from math import inf
+
+import numpy as np
 
 from .errors import CogmapError
 
-_TINY = 1e-300
+_TINY, _LARGE = 1e-300, 1e12
 
 
 def is_number(value: object, least: float, most: float) -> bool:
-    """Whether it is a number in [least, most]; a truth value is none, nor is a NaN."""
-    try:
-        return not isinstance(value, bool | str) and bool(least <= float(value) <= most)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        return False
+    """Whether it is a number in [least, most]; a truth value is none, nor is a NaN, a text or an array."""
+    kind = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+    return kind and bool(least <= value <= most)  # type: ignore[operator]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +40,7 @@ class Priors:
 
     def __post_init__(self) -> None:
         for name, value in zip((field.name for field in fields(self)), astuple(self), strict=True):
-            most = 0.5 if name == "door_floor" else 1e300
+            most = 0.5 if name == "door_floor" else _LARGE
             if not is_number(value, _TINY, most):
                 raise CogmapError(f"settings: priors.{name} is {value!r}; use a number above 0, at most {most:g}")
 
@@ -71,12 +70,16 @@ class Rates:
     def __post_init__(self) -> None:
         for name in ("possible", "impossible", "imagined"):
             pair: object = getattr(self, name)
-            fine = isinstance(pair, tuple | list) and len(pair) == 2 and all(is_number(x, -1e300, 1e300) for x in pair)
+            fine = (
+                isinstance(pair, tuple | list) and len(pair) == 2 and all(is_number(x, -_LARGE, _LARGE) for x in pair)
+            )
             if not fine:
-                raise CogmapError(f"settings: rates.{name} is {pair!r}; use two numbers, such as {(7.0, 5.0)}")
+                raise CogmapError(
+                    f"settings: rates.{name} is {pair!r}; use two numbers of {_LARGE:g} at most, such as {(7.0, 5.0)}"
+                )
         for name, least in (("likelihood", 0.0), ("ceiling", _TINY)):
-            if not is_number(value := getattr(self, name), least, inf) or value == inf:
-                raise CogmapError(f"settings: rates.{name} is {value!r}; use a finite number of {least:g} or more")
+            if not is_number(value := getattr(self, name), least, _LARGE):
+                raise CogmapError(f"settings: rates.{name} is {value!r}; use a number from {least:g} to {_LARGE:g}")
 
 
 TABLE_RATES = Rates()

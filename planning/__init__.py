@@ -15,7 +15,7 @@ from .local import (
 )
 from .plan import Plan, policy_posterior
 from .planner import Planner
-from .policies import POLICIES, Exhaustive, LShaped, MapGuided, Policies, PolicyGenerator, SelfAvoiding
+from .policies import MAX_LOOK_AHEAD, POLICIES, Exhaustive, LShaped, MapGuided, Policies, PolicyGenerator, SelfAvoiding
 from .reference import evaluate_plain
 from .rollout import evaluate
 from .terms import (
@@ -36,6 +36,7 @@ from .terms import (
 
 __all__ = [
     "CHOICES",
+    "MAX_LOOK_AHEAD",
     "POLICIES",
     "TERMS",
     "TIE",

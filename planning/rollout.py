@@ -89,9 +89,10 @@ def _roll(model: LocalModel, prefixes: Prefixes) -> Rollout:
     """Beliefs rolled forward, level by level."""
     belief = np.zeros((len(prefixes), len(model.belief)))
     belief[0] = model.belief
+    B, action = model.B.used(prefixes.action)
     for above, begin, end in prefixes.levels:
-        parent, action = prefixes.parent[begin:end], prefixes.action[begin:end]
-        belief[begin:end] = model.B.predicted(belief[above:begin], parent - above, action)
+        parent = prefixes.parent[begin:end]
+        belief[begin:end] = B.predicted(belief[above:begin], parent - above, action[begin:end])
     levels = [(begin, end) for _, begin, end in prefixes.levels]
     return Rollout(model, prefixes.parent, prefixes.action, levels, belief)
 

@@ -159,12 +159,16 @@ def test_no_way_may_have_been_looked_at(doors: Any) -> None:
 
 
 def test_looks_that_are_not_sure_add_up() -> None:
-    agent = Agent(GRID, seed=0)
-    for looks in range(1, 5):
-        agent.step({"sight": 1, "open": [0.8, 0.2, True, 0.5, True], "taken": "stay"})
-        odds = 4.0**looks
-        blocked = agent.map.blocked(np.array([0]))[0]
-        np.testing.assert_allclose(blocked[[0, 1, 3]], [1 / (1 + odds), odds / (1 + odds), 0.5], atol=0.07)
+    agent, believed = Agent(GRID, seed=0), []
+    for _ in range(5):
+        agent.step({"sight": 1, "open": [0.8, 0.2, True, None, True], "taken": "stay"})
+        believed.append(agent.map.blocked(np.array([0]))[0])
+    first, last = believed[0], believed[-1]
+    assert 0.01 < first[0] < 0.3
+    assert 0.5 < first[1] < 0.99
+    assert last[0] < 0.02
+    assert last[1] > 0.98
+    assert last[3] == pytest.approx(0.5, abs=0.3)  # never looked at
 
 
 def test_staying_is_always_open() -> None:
@@ -302,3 +306,20 @@ def test_an_agent_that_is_told_that_it_was_moved_believes_it() -> None:
     assert told.belief.certainty <= 0.5  # into the other room, or one never seen
     told.step({"sight": "hall", "open": walls("right"), "taken": "stay"})
     assert told.map.position(told.belief.place) == (0, 0)
+
+
+def test_an_agent_follows_a_walk_that_was_recorded() -> None:
+    walk = [
+        {"sight": "hall", "open": walls("right")},
+        {"sight": "room", "open": [None, False, True, True, True], "taken": "right"},
+        {"sight": "hall", "open": [False, 0.1, 0.2, 0.9, True], "taken": "left"},
+    ]
+    agent = Agent(GRID, seed=0)
+    steps = list(agent.follow(walk))
+    assert [step.step for step in steps] == [0, 1, 2]
+    assert [step.ways for step in steps] == [(3,), (0, 2, 3), (3,)]
+    assert [step.probability.sum() for step in steps] == pytest.approx([1.0] * 3)
+    assert steps[-1].belief is agent.belief
+    assert agent.map.position(agent.belief.place) == (0, 0)
+    with pytest.raises(CogmapError, match="not acted on the last observation"):
+        list(agent.follow([{"sight": "hall", "open": UNSEEN}]))

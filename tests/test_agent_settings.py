@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.inference import FilterOptions
-from cogmap.model import TEXT_RATES, CogmapError, Lattice, PredictedGrowth, Priors, Rates, Sight
-from cogmap.planning import MapGuided
+from cogmap.model import TEXT_RATES, CogmapError, Lattice, PredictedGrowth, Priors, Rates, Sight, StaticGrowth
+from cogmap.planning import Exhaustive, LShaped, MapGuided, Planner, SelfAvoiding
 from hypothesis import given
 from hypothesis import settings as budget
 from hypothesis import strategies as st
@@ -20,10 +20,12 @@ from walks import GRID
 NAN, INF = float("nan"), float("inf")
 
 REFUSED: dict[str, list[Any]] = {
-    "look_ahead": [0, -1, NAN],
-    "starts": [0, -1],
-    "window": [0, -1],
-    "precision": [-1.0, NAN, INF],
+    "look_ahead": [0, -1, NAN, 10**5, 10**30],
+    "starts": [0, -1, 10**30],
+    "window": [0, -1, 10**30],
+    "precision": [-1.0, NAN, INF, 10**30, 1e300, True, "16", np.array([16.0])],
+    "information_weight": [1e300, 10**400],
+    "discount": [True],
     "collision_cost": [-0.1, NAN, INF],
     "goal_weight": [-1.0, NAN, INF],
     "forgetting": [-0.1, 1.1, NAN],
@@ -74,6 +76,10 @@ RECORDS: list[tuple[type[Any], dict[str, Any]]] = [
     (Rates, {"likelihood": -1.0}),
     (Rates, {"likelihood": INF}),
     (Rates, {"ceiling": 0.0}),
+    (Rates, {"ceiling": 10**30}),
+    (Rates, {"possible": (1e300, 1.0)}),
+    (Priors, {"position": 10**400}),
+    (FilterOptions, {"slip": True}),
     (FilterOptions, {"displacement": 2.0}),
     (FilterOptions, {"displacement": -1.0}),
     (FilterOptions, {"slip": NAN}),
@@ -187,6 +193,32 @@ def test_names_of_sensors_are_words(name: Any) -> None:
 def test_two_sensors_of_one_name_are_refused() -> None:
     with pytest.raises(CogmapError, match="two have the same name"):
         Agent(GRID, sensors=[Sight("smell"), Sight("smell")])
+
+
+@pytest.mark.parametrize("beam", [0, True, 1.5, 10**30])
+def test_beams_that_cannot_be(beam: Any) -> None:
+    with pytest.raises(CogmapError, match="give a whole number from 1 to 2,000,000"):
+        MapGuided(beam=beam)
+
+
+@pytest.mark.parametrize("places", [0, True, 10**9, 10**30])
+def test_static_growth_of_too_many_places(places: Any) -> None:
+    with pytest.raises(CogmapError, match="give the size of the world"):
+        StaticGrowth(places)
+
+
+@pytest.mark.parametrize(
+    ("policies", "look_ahead"), [(Exhaustive(), 11), (Exhaustive(), 1000), (SelfAvoiding(), 14), (LShaped(), 800)]
+)
+def test_too_many_policies_are_refused_before_any_is_made(policies: Any, look_ahead: int) -> None:
+    with pytest.raises(CogmapError, match=r"more than 2,000,000 policies at look-ahead"):
+        Agent(GRID, planner=Planner(policies=policies), settings=Settings(look_ahead=look_ahead))
+
+
+@pytest.mark.parametrize("value", [INF, NAN, 1e300, 10**400, "1", None, True])
+def test_preferences_are_numbers(value: Any) -> None:
+    with pytest.raises(CogmapError, match="is not a finite number; give a log preference"):
+        Agent(GRID).prefer({"goal": value})
 
 
 @pytest.mark.parametrize("seed", [0, 1, None, 2**63, np.int64(4)])

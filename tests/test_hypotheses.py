@@ -12,7 +12,7 @@ from cogmap.inference.hypotheses.branches import branches, leads
 from cogmap.inference.hypotheses.chances import Chances
 from cogmap.inference.hypotheses.evidence import probability, way_odds
 from cogmap.inference.hypotheses.layered import Layered
-from cogmap.inference.hypotheses.pruning import signature
+from cogmap.inference.hypotheses.pruning import alike
 from cogmap.inference.hypotheses.rates import RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
 from cogmap.inference.hypotheses.weighing import door_evidence
 from cogmap.model import CogmapError, reduced, with_period
@@ -130,7 +130,10 @@ def test_what_may_be_sensed_adds_up_to_one(scheme):
 
 
 def test_a_fork_changes_apart_from_its_origin_and_settles():
-    one: Layered[str, int] = Layered({"a": 1, "b": 2})
+    one: Layered[str, int] = Layered()
+    one["a"], one["b"] = 1, 2
+    one.settle()
+    mark = one.mark
     other = one.fork()
     other["a"], other["c"] = 3, 4
     del other["b"]
@@ -138,6 +141,25 @@ def test_a_fork_changes_apart_from_its_origin_and_settles():
     assert sorted(other) == ["a", "c"]
     other.settle()
     assert (other["a"], other.get("b"), other["c"]) == (3, None, 4)
+    past = other.as_of(mark)
+    assert past is not None
+    assert ({key: past[key] for key in past}, past.get("c")) == ({"a": 1, "b": 2}, None)
+    for value in range(5000):
+        other["a"] = value
+        other.settle()
+    assert other.as_of(mark) is None
+
+
+def test_what_forks_have_in_common_is_shared():
+    one: Layered[str, object] = Layered()
+    one["a"], one["b"], one["c"] = object(), object(), object()
+    other = one.fork()
+    other["b"] = "another"
+    del other["c"]
+    before = [{key: h.get(key) for key in "abcd"} for h in (one, other)]
+    Layered.settle_alike([one, other])
+    assert [{key: h.get(key) for key in "abcd"} for h in (one, other)] == before
+    assert "a" not in one.layers[1] and "a" not in other.layers[1]
 
 
 def test_a_torus_is_found_to_close_on_itself():
@@ -182,17 +204,17 @@ def test_misread_sights_and_doors_invent_no_places():
     assert tracker.best.counts.mean(2) == pytest.approx(0.1, abs=0.04)
 
 
-def test_hypotheses_that_say_the_same_have_one_signature():
+def test_hypotheses_that_say_the_same_are_found_alike():
     tracker = Tracker(LATTICE)
     walk(tracker, Grid([[0, 1], [2, 3]]), "RDLU")
     fork = tracker.best.fork()
-    assert signature(fork) == signature(tracker.best)
+    assert alike(fork, tracker.best)
     place = fork.places[fork.here]
     fork.put(
         fork.here,
         place._replace(ways=(place.ways[0]._replace(to=NOWHERE), *place.ways[1:3], place.ways[3]._replace(to=NOWHERE))),
     )
-    assert signature(fork) != signature(tracker.best)
+    assert not alike(fork, tracker.best)
 
 
 def test_weights_add_up_to_one_at_every_step():

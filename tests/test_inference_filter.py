@@ -363,10 +363,10 @@ def test_filter_and_window_agree(name: str, growth: str, engine: str) -> None:
         graph, belief, t = agent.graph, agent.belief, agent.steps - 1
         posterior = infer(graph, engine=engine)
         np.testing.assert_allclose(posterior.joint(f"s{t}", f"p{t}"), joint_of(agent, graph, belief), atol=1e-9)
-        np.testing.assert_allclose(posterior.marginal(f"s{t}").max(), belief.certainty, atol=1e-9)
+        np.testing.assert_allclose(posterior.marginal(f"s{t}").max(), belief.message.certainty, atol=1e-9)
         first = int(graph.variables[0].name[1:])
-        retracted = [record.step for record in agent.trace if record.retracted is not None]
-        assert first == max(0, t - agent.settings.window, *retracted)  # then the window begins anew
+        revised = [record.step for record in agent.trace if record.revised]
+        assert first == max(0, t - agent.settings.window, *revised)  # then the window begins anew
         expected = sum(earlier.evidence for earlier in held[first + 1 :])
         assert posterior.log_evidence == pytest.approx(expected, abs=1e-9)
         if t > first:
@@ -382,7 +382,7 @@ def test_moved_agrees_with_the_window(name: str, growth: str) -> None:
     examined = 0
     for agent, held in beliefs(name, growth):
         t, belief = agent.steps - 1, held[-1]
-        if t and agent.trace[-1].retracted is None:
+        if t and not agent.trace[-1].revised:
             assert infer(agent.graph).marginal(f"moved{t}")[1] == pytest.approx(belief.moved, abs=1e-9)
             examined += belief.examined
     assert examined, "the walk was meant to have silent moves"

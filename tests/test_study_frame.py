@@ -25,6 +25,7 @@ NAMES = [
     "exploration",
     "goals",
     "growth",
+    "identity",
     "insight",
     "localisation",
     "martinet",

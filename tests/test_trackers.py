@@ -241,7 +241,7 @@ def test_what_it_is_told_of_a_move_is_believed():
         (lambda header, arrays: (header, {**arrays, "real": np.append(arrays["real"], 1.0)}), "goes on"),
         (lambda header, arrays: (header, {**arrays, "real": arrays["real"] * np.nan}), "damaged"),
         (lambda header, arrays: (header, {**arrays, "whole": arrays["whole"].astype(float)}), "no row of int64"),
-        (lambda header, arrays: ({**header, "doubted": 10_000}, arrays), "damaged"),
+        (lambda header, arrays: ({**header, "numbers": [20, 10_000, True, 0]}, arrays), "damaged"),
     ],
 )
 def test_states_that_are_none_are_refused(spoil, message):

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import islice
+from itertools import islice, takewhile
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -63,8 +63,9 @@ class GrowthFrames:
         Raises:
             CogmapError: the agent has seen nothing yet, or its map has more than two dimensions.
         """
-        place, news = agent.belief.place, _news(agent.map.growth[self._logged :])
-        self._logged = len(agent.map.growth)
+        since, growth = self._logged, agent.map.growth  # from its end, as its beginning may be made shorter
+        place, news = agent.belief.place, _news([*takewhile(lambda event: event.step >= since, reversed(growth))][::-1])
+        self._logged = agent.steps
         self._map = self._map or MapPicture(agent.map.motions, agent.map.sights)
         self.frames.append(GrowthFrame(agent.steps - 1, self._map.update(agent.map), place, news))
         if self._map.located:

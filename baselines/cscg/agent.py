@@ -94,12 +94,14 @@ class CscgAgent:
     def step(self, observation: Mapping[str, Any]) -> int:
         """The next action after `{"sight": label, "open": flag an action}` and, if it observes positions, "position".
 
+        Where another action than the one answered led here, the observation says so: `"taken"`, its index.
+
         Raises:
             WorldError: the observation lacks a part, has another number of actions, or is one more than
                 `observations`.
         """
         sight, label = self._read(observation)
-        self._memory.add(self._action, self._number(label), learning=self.learning)
+        self._memory.add(observation.get("taken", self._action), self._number(label), learning=self.learning)
         self._action = self._choose(sight)
         return self._action
 

@@ -15,7 +15,7 @@ from functools import cached_property
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = ("worlds", "model", "inference", "planning", "agent", "views", "baselines", "experiments")
+PACKAGES = ("worlds", "model", "inference", "planning", "agent", "views", "baselines", "behaviour", "experiments")
 NAME = re.compile(r"(?<!\[)`(cogmap(?:\.\w+){2,})`(?!\])")
 
 

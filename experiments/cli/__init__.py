@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from .explore import explore_command
+from .fit import fit_command
 from .group import CogmapGroup
 from .inspect import inspect_command
 from .kidnap import kidnap_command
@@ -42,6 +43,7 @@ for _command in (
     navigate_command,
     kidnap_command,
     study_command,
+    fit_command,
     replay_command,
     inspect_command,
 ):

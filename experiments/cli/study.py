@@ -18,7 +18,8 @@ Name = Annotated[
     str,
     typer.Argument(
         metavar="NAME",
-        help="exploration, rooms, growth, cost, localisation, goals, donut, tolman, martinet or insight; or all.",
+        help="exploration, rooms, growth, cost, identity, localisation, "
+        "goals, donut, tolman, martinet, insight; or all.",
         show_default=False,
     ),
 ]
@@ -51,7 +52,7 @@ def study_command(
 ) -> None:
     """Run a study of the paper; rows (JSON), tables (CSV), figures and a report (Markdown, HTML) are written.
 
-    exploration, rooms and growth keep every finished run in DIR/cells.jsonl: the same command goes on from there.
+    exploration, rooms, growth and identity keep every finished run in DIR: the same command goes on from there.
     """
     from .. import workers
     from ..studies import EVERYTHING, Options, run_studies, run_study, study_named

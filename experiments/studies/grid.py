@@ -5,22 +5,19 @@ They share their runs: one that a ledger holds already is not made again, whiche
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any, ClassVar
 
 from ...agent import Settings
 from ...baselines import CscgSettings
-from ...model import make_folder
 from ...views import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, theme_of
 from ...worlds import MAZES
-from .. import CSCG, Cell, ExploreRun, Ledger, Row, mean, run_cell, run_cells, std
+from .. import CSCG, Cell, ExploreRun, Key, Ledger, Row, mean, run_cell, run_cells, std
 from .figures import Axes, Figure, Look, panels, plot_line
 from .intervals import Interval, bootstrap
-from .study import Study
+from .study import Kept
 from .tables import Table, flat
 
 LEDGER = "cells.jsonl"  # in the folder of a study, or of those that share their runs
@@ -102,9 +99,10 @@ Grid = dict[tuple[str, str], Steps]  # by maze and by model, or by way to grow
 
 
 @dataclass(frozen=True)
-class Explorations(Study[Cell, Row]):
+class Explorations(Kept[Cell, Row]):
     """Every maze is explored by every model, each with every seed; a subclass says which steps count, and of whom."""
 
+    file = LEDGER
     what: ClassVar[str]
     by: ClassVar[str] = "agent"  # or "growth"
 
@@ -127,22 +125,15 @@ class Explorations(Study[Cell, Row]):
         """One exploration."""
         return run_cell(task, settings=settings, max_steps=self.cap)
 
-    def completed(
-        self, tasks: Sequence[Cell], settings: Settings, executor: Executor | None, ledger: Ledger | None
-    ) -> Iterator[tuple[int, Row]]:
-        """Those that the ledger has are not made again."""
-        number = {cell.key: i for i, cell in enumerate(tasks)}
-        for row in run_cells(tasks, settings=settings, max_steps=self.cap, ledger=ledger, executor=executor):
-            yield number[row.key], row
+    def key(self, task: Cell) -> Key:
+        """That of the cell."""
+        return task.key
 
-    @contextmanager
-    def ledger(self, folder: Path, settings: Settings) -> Generator[Ledger | None]:
-        """The ledger in the folder; refused if it cannot be written, is in use, or of other settings (CogmapError)."""
-        make_folder(folder)
-        with Ledger(folder / LEDGER) as ledger:
-            for _ in self.completed((), settings, None, ledger):
-                pass  # compares the settings, and runs nothing
-            yield ledger
+    def made(
+        self, tasks: Sequence[Cell], settings: Settings, executor: Executor | None, ledger: Ledger | None
+    ) -> Iterator[Row]:
+        """Those that the ledger has are not made again, whichever study asked for them."""
+        return run_cells(tasks, settings=settings, max_steps=self.cap, ledger=ledger, executor=executor)
 
     def grid(self, rows: Sequence[Row], what: str = "") -> Grid:
         """What the runs come to; the oracle, first in each maze, walks from the starts of the first model."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib import import_module
@@ -15,7 +15,7 @@ from pkgutil import iter_modules
 from typing import Any, ClassVar, Generic, TypeVar
 
 from ...agent import Settings
-from ...model import CogmapError
+from ...model import CogmapError, make_folder
 from .. import Ledger, completed
 from .figures import Figure
 from .tables import Table
@@ -118,6 +118,39 @@ class Study(ABC, Generic[Task, Row]):
 
 
 AnyStudy = Study[Any, Any]
+
+
+class Kept(Study[Task, Row]):
+    """A study that keeps every finished run in a file of its folder, and goes on from there."""
+
+    file: ClassVar[str]  # its name
+
+    @abstractmethod
+    def key(self, task: Task) -> Any:
+        """What tells a task from others; that of its row."""
+
+    @abstractmethod
+    def made(
+        self, tasks: Sequence[Task], settings: Settings, executor: Executor | None, ledger: Ledger | None
+    ) -> Iterator[Any]:
+        """The row of each task, in any order; those that the ledger has are not made again."""
+
+    def completed(
+        self, tasks: Sequence[Task], settings: Settings, executor: Executor | None, ledger: Ledger | None
+    ) -> Iterator[tuple[int, Row]]:
+        """Number of the task and its row."""
+        number = {self.key(task): i for i, task in enumerate(tasks)}
+        for row in self.made(tasks, settings, executor, ledger):
+            yield number[row.key], row
+
+    @contextmanager
+    def ledger(self, folder: Path, settings: Settings) -> Generator[Ledger | None]:
+        """The ledger in the folder; refused if it cannot be written, is in use, or of other settings (CogmapError)."""
+        make_folder(folder)
+        with Ledger(folder / self.file) as ledger:
+            for _ in self.made((), settings, None, ledger):
+                pass  # compares the settings, and runs nothing
+            yield ledger
 
 
 @cache

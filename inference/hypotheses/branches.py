@@ -41,6 +41,14 @@ class Alternative(NamedTuple):
     moved: float
 
 
+def apart(branch: Alternative, best: Alternative) -> bool:
+    """Whether a branch says of a new place only that it is not where the pose says, as the best one does.
+
+    Both expect the same until a chart contradicts one of them.
+    """
+    return branch.to == NOWHERE and not branch.charted and best.charted
+
+
 class Lead(NamedTuple):
     """Where an open way may lead: `to` (if that is a place) with `sure`, a new place where the pose says, or off it."""
 
@@ -130,8 +138,20 @@ class Walker:
             weight = before + log(lead.new) + log_predictive(h, self.sensed, key, back, h.here)
             yield Alternative(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
         if lead.off > 0.0 and before + log(lead.off) > self.floor:
-            weight = before + log(lead.off) + log_predictive(h, self.sensed, None, back, h.here)
-            yield Alternative(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
+            yield self.off(way, lead, before, astray)
+
+    def off(self, way: int, lead: Lead, before: float, astray: float) -> Alternative:
+        """Along a way, to a place never seen that is not where the pose says."""
+        h = self.h
+        back = None if h.scheme.inverse is None else h.scheme.inverse[way]
+        weight = before + log(lead.off) + log_predictive(h, self.sensed, None, back, h.here)
+        return Alternative(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
+
+    def put_elsewhere(self) -> Alternative:
+        """Put into a place never seen, without a word."""
+        weight = log_predictive(self.h, self.sensed, None, None, NOWHERE)
+        weight += self.h.weight + self.put_there + log(self.unseen)
+        return Alternative(weight, self.h, NOWHERE, NOWHERE, False, 0.0, 0.0, 1.0)
 
     def along(self, way: int, lead: Lead, before: float, astray: float) -> Alternative:
         """Along a way; if it was walked before, being put there makes the same map, so the two are one branch."""
@@ -150,8 +170,7 @@ class Walker:
         for number in look_alikes(h, self.sensed):
             if number not in self.arrived:
                 yield Alternative(each + self.at(number), h, NOWHERE, number, False, 0.0, 0.0, 1.0)
-        weight = each + log(self.unseen) + log_predictive(h, self.sensed, None, None, NOWHERE)
-        yield Alternative(weight, h, NOWHERE, NOWHERE, False, 0.0, 0.0, 1.0)
+        yield self.put_elsewhere()
 
     def at(self, number: int) -> float:
         """log P(sensed | that place)."""
@@ -169,7 +188,7 @@ def unseen(h: Hypothesis) -> float:
 def look_alikes(h: Hypothesis, sensed: Sensed) -> tuple[int, ...]:
     """Places that may look like what is sensed, those first seen last."""
     reading = sensed.sights[0] if sensed.sights else None
-    return (h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(h.places))[-LOOK_ALIKES:]
+    return (h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(sorted(h.places)))[-LOOK_ALIKES:]
 
 
 def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:

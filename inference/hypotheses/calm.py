@@ -13,10 +13,13 @@ from .scheme import Sensed
 LEAST = 1e-300
 
 
-def calm_branch(h: Hypothesis, sensed: Sensed, *, drop: float) -> Alternative | None:
-    """What has happened, if every alternative is less probable by `drop` nats or more; None where that is not sure."""
+def calm_branches(h: Hypothesis, sensed: Sensed, *, drop: float) -> list[Alternative]:
+    """What has happened, if every alternative but those `apart` is less probable by `drop` nats or more.
+
+    It is followed by those that are apart from it only, as far as they are within `drop`; nothing if it is not sure.
+    """
     if sensed.told:
-        return None
+        return []
     return _Calm(h, sensed).alone(drop)
 
 
@@ -30,14 +33,28 @@ class _Calm:
         self.astray = 0.0 if sensed.certain else h.chances.astray
         self.stayed = h.weight + log(1.0 - h.chances.moved)
         self.put_there = h.weight + self.walker.put_there
+        self.new: float | None = None
 
-    def alone(self, drop: float) -> Alternative | None:
+    def alone(self, drop: float) -> list[Alternative]:
         action = self.sensed.action
         lead = None if action is None else leads(self.h, self.h.here, self.walker.place, action)
         main = self._main(lead)
         floor = main.weight - drop
-        sure = self._others_fail(main, lead, floor) and self._astray_fails(main, floor)
-        return main if sure and self._moved_fails(main, floor) else None
+        if not (self._others_fail(main, lead, floor) and self._astray_fails(main, floor)):
+            return []
+        if not self._moved_fails(main, floor):
+            return []
+        return [main, *(branch for branch in self._apart(main, lead) if branch.weight > floor)]
+
+    def _apart(self, main: Alternative, lead: Lead | None) -> list[Alternative]:
+        """The branches that are apart from the main one, where that founds a new place."""
+        if not main.charted or lead is None or self.sensed.action is None:
+            return []
+        before = self.stayed + log(1.0 - self.astray) + log(self.walker.open(self.sensed.action))
+        found = [self.walker.put_elsewhere()]
+        if lead.off > 0.0:
+            found.append(self.walker.off(self.sensed.action, lead, before + log(1.0 - self.chances.fails), 0.0))
+        return found
 
     def _main(self, lead: Lead | None) -> Alternative:
         h, action, walker = self.h, self.sensed.action, self.walker
@@ -68,7 +85,7 @@ class _Calm:
             stays = given * (1.0 - self.walker.open(action) * (1.0 - self.chances.fails)) + self.astray
             if log(stays * exp(self.stayed) + exp(self.put_there)) + self._at(h.here) > floor:
                 return False
-            left = lead.off if main.to == NOWHERE else lead.new + lead.off
+            left = 0.0 if main.charted else lead.new + lead.off
         return left <= 0.0 or ahead + log(left) + self._new() <= floor
 
     def _astray_fails(self, main: Alternative, floor: float) -> bool:
@@ -88,7 +105,7 @@ class _Calm:
         return True
 
     def _moved_fails(self, main: Alternative, floor: float) -> bool:
-        if self.put_there + log(self.walker.unseen) + self._new() > floor:
+        if not main.charted and self.put_there + log(self.walker.unseen) + self._new() > floor:
             return False
         best = self.ways + sum(log(right) for right in self.chances.right)
         if self.sensed.others is None and self.put_there + best <= floor:
@@ -109,6 +126,11 @@ class _Calm:
 
     def _new(self) -> float:
         """At most log P(sensed | a place never seen)."""
+        if self.new is None:
+            self.new = self._best_new()
+        return self.new
+
+    def _best_new(self) -> float:
         total, others = self.ways, self.sensed.others
         for sensor, reading in enumerate(self.sensed.sights):
             if reading is not None:

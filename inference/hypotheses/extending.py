@@ -30,6 +30,7 @@ def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> Non
         to = time
         key = h.beyond(h.places[here], branch.way) if branch.charted else None
         frame, position = key or (time, h.scheme.origin)
+        h.apart = h.apart or not branch.charted
         _place_new(h, to, frame=frame, position=position)
     if branch.way != NOWHERE:
         _walk(h, here, branch.way, to, branch)

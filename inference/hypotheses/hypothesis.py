@@ -30,15 +30,17 @@ class Hypothesis:
         periods: of the charts that close on themselves, by frame.
         here: the place the agent is in.
         weight: log posterior weight.
+        digest: the same for maps that are the same, whatever their places are numbered; hardly ever for others.
         size, links: number of places, and of ways between them (both directions are one).
         chances: the rates expected at this step.
         origin: the hypothesis before the last step, if this one only extends it.
+        apart: it says of some place that it is not where the pose says; that may be all that it differs in.
         touched: numbers of the records changed since it was forked.
     """
 
     __slots__ = (
-        "at", "chances", "counts", "here", "kinds", "links", "origin", "periods", "places", "scheme", "shown", "size",
-        "touched", "undo", "weight",
+        "apart", "at", "chances", "counts", "digest", "here", "kinds", "links", "origin", "periods", "places", "scheme",
+        "shown", "size", "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -52,8 +54,9 @@ class Hypothesis:
         self.undo: dict[tuple[int, int], tuple[float, float]] = {}
         self.here = NOWHERE
         self.weight = 0.0
-        self.size = self.links = 0
+        self.size = self.links = self.digest = 0
         self.origin: Hypothesis | None = None
+        self.apart = False
         self.touched: dict[int, None] = {}
         self.chances = Chances(self.counts, [1] * scheme.sensors)
 
@@ -65,7 +68,21 @@ class Hypothesis:
         other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
         other.undo = self.undo.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
-        other.origin, other.touched = None, {}
+        other.origin, other.touched, other.digest, other.apart = None, {}, self.digest, self.apart
+        return other
+
+    @property
+    def marks(self) -> tuple[int, int, int]:
+        """The state of the shared layers, for `as_of`."""
+        return self.places.mark, self.at.mark, self.shown.mark
+
+    def as_of(self, marks: tuple[int, int, int]) -> Hypothesis | None:
+        """A fork as it was when these were its marks, whatever was settled since; None where that is forgotten."""
+        places, at, shown = self.places.as_of(marks[0]), self.at.as_of(marks[1]), self.shown.as_of(marks[2])
+        if places is None or at is None or shown is None:
+            return None
+        other = self.fork()
+        other.places, other.at, other.shown = places, at, shown
         return other
 
     def settle(self) -> None:
@@ -110,7 +127,9 @@ class Hypothesis:
                 self.at[place.frame, place.position] = number
         else:
             self._count(before, -1.0)
+            self.digest -= digest(before)
         self._count(place, 1.0)
+        self.digest += digest(place)
         for sensor in range(self.scheme.sensors):
             was, now = -1 if before is None else before.label(sensor), place.label(sensor)
             if was != now:
@@ -122,6 +141,7 @@ class Hypothesis:
         """Take a place away."""
         place = self.places[number]
         self._count(place, -1.0)
+        self.digest -= digest(place)
         for sensor in range(self.scheme.sensors):
             self._relabel(sensor, number, place.label(sensor), -1)
         if place.position and self.at.get((place.frame, place.position)) == number:
@@ -149,3 +169,15 @@ class Hypothesis:
             others = self.shown.get((sensor, now)) or ()
             self.shown[sensor, now] = (*others, number)
             self.kinds[sensor] += not others
+
+
+def settle_alike(hypotheses: Sequence[Hypothesis]) -> None:
+    """Share what hypotheses have in common."""
+    Layered.settle_alike([h.places for h in hypotheses])
+    Layered.settle_alike([h.at for h in hypotheses])
+    Layered.settle_alike([h.shown for h in hypotheses])
+
+
+def digest(place: Place) -> int:
+    """What a place adds to the digest of its map."""
+    return hash((place.label(), tuple([way.to == NOWHERE for way in place.ways])))

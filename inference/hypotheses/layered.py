@@ -2,11 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterator, Sequence
 from typing import Generic, TypeVar
 
 K = TypeVar("K", bound=Hashable)
 V = TypeVar("V")
+
+LOGGED = 1024
+"""Changes of a shared layer that can be looked behind, at least."""
+
+
+class Shared(dict[K, V]):
+    """A shared layer, and what it held before its last changes."""
+
+    __slots__ = ("cut", "log")
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.log: list[tuple[K, V | None]] = []
+        self.cut = 0
+
+    @property
+    def mark(self) -> int:
+        """Number of changes so far."""
+        return self.cut + len(self.log)
+
+    def change(self, key: K, value: V | None) -> None:
+        """Put an entry in, or take it away."""
+        self.log.append((key, self.get(key)))
+        if value is None:
+            self.pop(key, None)
+        else:
+            self[key] = value
+
+    def forget(self) -> None:
+        """Let go of what was logged long ago."""
+        if len(self.log) > 2 * LOGGED:
+            self.cut += len(self.log) - LOGGED
+            self.log = self.log[-LOGGED:]
 
 
 class Layered(Generic[K, V]):
@@ -14,8 +47,8 @@ class Layered(Generic[K, V]):
 
     __slots__ = ("_base", "_own")
 
-    def __init__(self, base: dict[K, V] | None = None, own: dict[K, V | None] | None = None) -> None:
-        self._base: dict[K, V] = {} if base is None else base
+    def __init__(self, base: Shared[K, V] | None = None, own: dict[K, V | None] | None = None) -> None:
+        self._base: Shared[K, V] = Shared() if base is None else base
         self._own: dict[K, V | None] = {} if own is None else own
 
     def fork(self) -> Layered[K, V]:
@@ -25,16 +58,41 @@ class Layered(Generic[K, V]):
     def settle(self) -> None:
         """Put the own entries into the shared layer; only for the one that is left of those that share it."""
         for key, value in self._own.items():
-            if value is None:
-                self._base.pop(key, None)
-            else:
-                self._base[key] = value
+            self._base.change(key, value)
         self._own = {}
+        self._base.forget()
 
     @property
-    def layers(self) -> tuple[dict[K, V], dict[K, V | None]]:
+    def mark(self) -> int:
+        """The state of the shared layer, for `as_of`."""
+        return self._base.mark
+
+    def as_of(self, mark: int) -> Layered[K, V] | None:
+        """A fork that sees the shared layer as it was; None where that is forgotten."""
+        if mark < self._base.cut:
+            return None
+        own = dict(reversed(self._base.log[mark - self._base.cut :]))
+        own.update(self._own)
+        return Layered(self._base, own)
+
+    @property
+    def layers(self) -> tuple[Shared[K, V], dict[K, V | None]]:
         """The shared layer, and the own entries above it; for files."""
         return self._base, self._own
+
+    @staticmethod
+    def settle_alike(many: Sequence[Layered[K, V]]) -> None:
+        """Put what all of those that share a layer have in common into it."""
+        first, *others = (one._own for one in many)
+        alike = [key for key, value in first.items() if all(key in own and own[key] is value for own in others)]
+        for key in alike:
+            many[0]._base.change(key, first[key])
+        for one in many:
+            own = one._own.copy()
+            for key in alike:
+                del own[key]
+            one._own = own
+        many[0]._base.forget()
 
     def get(self, key: K) -> V | None:
         """The entry, or None."""

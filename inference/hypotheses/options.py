@@ -18,6 +18,8 @@ class TrackerOptions:
     Attributes:
         most: at most so many.
         least: those less probable than this, beside the most probable one, are dropped.
+        doubt: while all others are less probable than this, beside the most probable one, nothing is in doubt, and
+            that one is kept alone; once something is, the last steps are gone through again for what was passed over.
         folded: hypotheses in which look-alikes are tried to be united, besides those that found a new place.
         calm: steps that leave no doubt take a short way; the result is the same.
 
@@ -28,11 +30,12 @@ class TrackerOptions:
     most: int = 32
     least: float = 1e-5
     folded: int = 2
+    doubt: float = 1e-3
     calm: bool = True
 
     def __post_init__(self) -> None:
-        if not (self.most >= 1 and 0.0 < self.least < 1.0 and self.folded >= 0):
-            raise CogmapError(f"tracker: {self} cannot work; give most >= 1, 0 < least < 1, folded >= 0")
+        if not (self.most >= 1 and 0.0 < self.least < 1.0 and 0.0 < self.doubt < 1.0 and self.folded >= 0):
+            raise CogmapError(f"tracker: {self} cannot work; give most >= 1, 0 < least < 1, 0 < doubt < 1, folded >= 0")
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,35 +6,44 @@ from collections.abc import Sequence
 from math import exp, log
 
 from .hypothesis import Hypothesis
-from .records import NOWHERE
-
-Signature = tuple[object, ...]
+from .records import NOWHERE, Place
 
 
-def signature(h: Hypothesis) -> Signature:
-    """The same for two hypotheses that say the same of where the agent is, and of the map as far as it is linked.
+def alike(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether two hypotheses say the same of where the agent is, and of the map as far as it is linked.
 
-    Places are numbered anew in the order in which a breadth-first search from the agent's place finds them; where
-    they lead, their sights and, with poses, their positions seen from there are compared.
+    A breadth-first search from the agent's place walks through both maps side by side; where ways lead, sights and,
+    with poses, positions seen from there are compared, until something differs.
     """
-    numbers = {h.here: 0}
-    order = [h.here]
-    start = h.places[h.here]
-    found: list[object] = [h.size, h.periods.get(start.frame, ())]
-    for number in order:
-        place = h.places[number]
-        found.append(place.label())
-        if place.position and place.frame == start.frame:
-            found.append(h.canonical(0, [x - y for x, y in zip(place.position, start.position, strict=True)])[1])
-        for way in place.ways:
+    a, b = one.places[one.here], other.places[other.here]
+    if (one.size, one.digest) != (other.size, other.digest):
+        return False
+    if one.periods.get(a.frame, ()) != other.periods.get(b.frame, ()):
+        return False
+    pairs, back = {one.here: other.here}, {other.here: one.here}
+    order = [(one.here, other.here)]
+    for mine, its in order:
+        here, there = one.places[mine], other.places[its]
+        if here.label() != there.label() or _seen(one, a, here) != _seen(other, b, there):
+            return False
+        for way, its_way in zip(here.ways, there.ways, strict=True):
+            if (way.to == NOWHERE) != (its_way.to == NOWHERE):
+                return False
             if way.to == NOWHERE:
-                found.append(NOWHERE)
                 continue
-            if way.to not in numbers:
-                numbers[way.to] = len(order)
-                order.append(way.to)
-            found.append(numbers[way.to])
-    return tuple(found)
+            if way.to not in pairs and its_way.to not in back:
+                pairs[way.to], back[its_way.to] = its_way.to, way.to
+                order.append((way.to, its_way.to))
+            elif pairs.get(way.to) != its_way.to:
+                return False
+    return True
+
+
+def _seen(h: Hypothesis, start: Place, place: Place) -> object:
+    """The position of a place as seen from another in the same chart; None in another chart."""
+    if not place.position or place.frame != start.frame:
+        return None
+    return h.canonical(start.frame, [x - y for x, y in zip(place.position, start.position, strict=True)])[1]
 
 
 def merged(hypotheses: Sequence[Hypothesis], proposed: Sequence[Hypothesis] = ()) -> list[Hypothesis]:
@@ -45,25 +54,34 @@ def merged(hypotheses: Sequence[Hypothesis], proposed: Sequence[Hypothesis] = ()
     """
     if len(hypotheses) + len(proposed) == 1:
         return [*hypotheses, *proposed]
-    kept: dict[Signature, Hypothesis] = {}
+    kept: dict[int, list[Hypothesis]] = {}
     for h in sorted(hypotheses, key=lambda h: -h.weight):
-        same = kept.setdefault(signature(h), h)
+        same = _kept(kept, h)
         if same is not h:
             same.weight = log_add(same.weight, h.weight)
     for h in sorted(proposed, key=lambda h: -h.weight):
-        same = kept.setdefault(signature(h), h)
+        same = _kept(kept, h)
         same.weight = max(same.weight, h.weight)
-    return sorted(kept.values(), key=lambda h: -h.weight)
+    return sorted((h for group in kept.values() for h in group), key=lambda h: -h.weight)
 
 
-def normalised(hypotheses: Sequence[Hypothesis], *, drop: float, most: int) -> list[Hypothesis]:
-    """Those within `drop` nats of the first, `most` at most; their weights add up to one."""
+def _kept(kept: dict[int, list[Hypothesis]], h: Hypothesis) -> Hypothesis:
+    """The one that says the same, or this one, which is kept from now on."""
+    group = kept.setdefault(h.digest, [])
+    same = next((other for other in group if alike(other, h)), h)
+    if same is h:
+        group.append(h)
+    return same
+
+
+def normalised(hypotheses: Sequence[Hypothesis], *, drop: float, most: int) -> tuple[list[Hypothesis], float]:
+    """Those within `drop` nats of the first, `most` at most; their weights add up to one, and what was divided by."""
     best = hypotheses[0].weight
     kept = [h for h in hypotheses[:most] if h.weight > best - drop]
     total = log_sum([h.weight for h in kept])
     for h in kept:
         h.weight -= total
-    return kept
+    return kept, total
 
 
 def log_sum(logs: Sequence[float]) -> float:

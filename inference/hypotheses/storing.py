@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from math import exp, isfinite
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from ...model import CogmapError
-from .hypothesis import Hypothesis
-from .layered import Layered
+from .hypothesis import Hypothesis, digest
+from .layered import Layered, Shared
+from .lookback import Past
 from .options import Change
 from .rates import RATE_PRIORS, RateCounts
 from .records import NOWHERE, Place
@@ -21,36 +22,46 @@ from .streams import DAMAGED, Reader, Writer
 
 Arrays = dict[str, NDArray[Any]]
 Tried = tuple[int, int, bool, int, int]
-Kept = tuple[int, float, tuple[int, ...], Sequence[int], int]
 
 VERSION = 1
 
-Found = tuple[list[Hypothesis], History, dict[Tried, int], Change, Kept]
+
+@dataclass(slots=True)
+class Parts:
+    """What a tracker consists of."""
+
+    hypotheses: list[Hypothesis]
+    history: History
+    tried: dict[Tried, int]
+    past: tuple[Past, ...]
+    change: Change
+    doubts: Sequence[int]
+    labels: tuple[int, ...]
+    evidence: float
+    numbers: tuple[int, int, bool, int]
+    """Time, place in `doubts`, whether all is clear, steps without doubt."""
 
 
-def stored(
-    scheme: WayScheme,
-    hypotheses: Sequence[Hypothesis],
-    history: History,
-    tried: Mapping[Tried, int],
-    change: Change,
-    kept: Kept,
-) -> tuple[dict[str, Any], Arrays]:
+def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
     """The header and the arrays of a tracker; the layer that its hypotheses share is written once."""
     out = Writer()
+    past = [(step, h) for step in parts.past if (h := step.parent.as_of(step.marks)) is not None]
+    hypotheses = [*parts.hypotheses, *(h for _, h in past)]
     if hypotheses:
         _write_maps(out, hypotheses[0], 0)
     for h in hypotheses:
         _write_maps(out, h, 1)
-        out.whole += [h.here, h.size, h.links, *h.kinds]
+        out.whole += [h.here, h.size, h.links, h.apart, *h.kinds]
         out.real += [h.weight, *h.counts.yes, *h.counts.no]
         for (one, other), counts in h.undo.items():
             out.whole += [one, other]
             out.real += counts
-    out.many(history, out.sensed)
-    out.many(tried.items(), lambda item: out.whole.extend([*map(int, item[0]), item[1]]))
-    out.many(kept[3], out.whole.append)
-    time, evidence, labels, _, doubted = kept
+    for step, _ in past:
+        out.whole += [step.time, *step.labels]
+        out.real.append(step.norm)
+    out.many(parts.history, out.sensed)
+    out.many(parts.tried.items(), lambda item: out.whole.extend([*map(int, item[0]), item[1]]))
+    out.many(parts.doubts, out.whole.append)
     header = {
         "version": VERSION,
         "scheme": _described(scheme),
@@ -61,17 +72,17 @@ def stored(
             }
             for h in hypotheses
         ],
-        "time": time,
-        "evidence": evidence,
-        "labels": list(labels),
-        "doubted": doubted,
-        "change": [change.kind, list(change.places)],
-        "length": history.length,
+        "past": len(past),
+        "evidence": parts.evidence,
+        "labels": list(parts.labels),
+        "numbers": list(parts.numbers),
+        "change": [parts.change.kind, list(parts.change.places)],
+        "length": parts.history.length,
     }
-    return header, {"whole": np.array(out.whole, np.int64), "real": np.array(out.real, np.float64)}
+    return header, out.rows()
 
 
-def restored(scheme: WayScheme, state: Any) -> Found:
+def restored(scheme: WayScheme, state: Any) -> Parts:
     """The parts of a tracker of these ways.
 
     Raises:
@@ -112,7 +123,7 @@ def _write_maps(out: Writer, h: Hypothesis, layer: int) -> None:
 def _entry(out: Writer, number: int, place: Place | None) -> None:
     out.whole += [number, place is not None]
     if place is not None:
-        out.place(place)
+        out.record(place)
 
 
 def _shown(out: Writer, key: tuple[int, int], numbers: tuple[int, ...] | None) -> None:
@@ -124,10 +135,17 @@ def _number(number: int | None) -> int:
     return NOWHERE if number is None else number
 
 
-def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Found:
+def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts:
     entries = header["hypotheses"]
-    shared = _read_maps(scheme, source) if entries else ({}, {}, {})
+    source.records(scheme)
+    shared = _shared(_read_maps(scheme, source)) if entries else (Shared(), Shared(), Shared())
     hypotheses = [_read_hypothesis(scheme, entry, shared, source) for entry in entries]
+    alive = len(hypotheses) - int(header["past"])
+    _finish(hypotheses, alive)
+    past: list[Past] = []
+    for h in hypotheses[alive:]:
+        time, *labels = source.numbers(1 + scheme.sensors)
+        past.append(Past(time, h, h.marks, tuple(labels), source.reals(1)[0]))
     history = History(int(header["length"]))
     for time, sensed in source.many(lambda: source.sensed(scheme)):
         sensed.check(scheme)
@@ -137,18 +155,34 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Found
         tried[one, other, bool(period), size, links] = again
     doubts = source.row()
     source.end()
-    time, evidence, labels = int(header["time"]), float(header["evidence"]), tuple(int(n) for n in header["labels"])
     kind, places = header["change"]
-    if kind not in ("extended", "revised") or len(labels) != scheme.sensors * bool(entries):
-        raise ValueError("its header contradicts itself")
-    total = sum(exp(h.weight) for h in hypotheses)
-    if (entries and abs(total - 1.0) > 1e-6) or not isfinite(evidence) or not 0 <= header["doubted"] <= len(doubts):
+    time, doubted, clear, quiet = header["numbers"]
+    evidence, labels = float(header["evidence"]), tuple(int(n) for n in header["labels"])
+    parts = Parts(
+        hypotheses[:alive], history, tried, tuple(past), Change(kind, tuple(places)), doubts, labels, evidence,
+        (int(time), int(doubted), bool(clear), int(quiet)),
+    )  # fmt: skip
+    _check_parts(scheme, parts)
+    return parts
+
+
+def _check_parts(scheme: WayScheme, parts: Parts) -> None:
+    """Refuse parts that contradict each other."""
+    time, doubted, _, _ = parts.numbers
+    alive = bool(parts.hypotheses)
+    if abs(sum(exp(h.weight) for h in parts.hypotheses) - alive) > 1e-6 or not isfinite(parts.evidence):
         raise ValueError("its weights do not add up to one")
-    kept = time, evidence, labels, doubts, int(header["doubted"])
-    return hypotheses, history, tried, Change(kind, tuple(places)), kept
+    if len(parts.labels) != scheme.sensors * alive or not 0 <= doubted <= len(parts.doubts):
+        raise ValueError("its numbers contradict each other")
+    times = [time for time, _ in parts.history]
+    if times != list(range(time - len(times), time)) or parts.change.kind not in ("extended", "revised"):
+        raise ValueError("its steps do not follow each other")
+    if [step.time for step in parts.past] != times[len(times) - len(parts.past) :]:
+        raise ValueError("its steps do not follow each other")
 
 
 Maps = tuple[dict[int, Any], dict[tuple[int, tuple[int, ...]], Any], dict[tuple[int, int], Any]]
+Bases = tuple[Shared[int, Any], Shared[tuple[int, tuple[int, ...]], Any], Shared[tuple[int, int], Any]]
 
 
 def _read_maps(scheme: WayScheme, source: Reader) -> Maps:
@@ -156,7 +190,7 @@ def _read_maps(scheme: WayScheme, source: Reader) -> Maps:
     places: dict[int, Place | None] = {}
     for _ in range(source.numbers(1)[0]):
         number, there = source.numbers(2)
-        places[number] = source.place(scheme) if there else None
+        places[number] = source.record() if there else None
     at: dict[tuple[int, tuple[int, ...]], int | None] = {}
     for frame, *position, number in source.many(lambda: source.numbers(2 + len(scheme.origin))):
         at[frame, tuple(position)] = None if number == NOWHERE else number
@@ -167,11 +201,21 @@ def _read_maps(scheme: WayScheme, source: Reader) -> Maps:
     return places, at, shown
 
 
-def _read_hypothesis(scheme: WayScheme, entry: Mapping[str, Any], shared: Maps, source: Reader) -> Hypothesis:
+def _shared(maps: Maps) -> Bases:
+    bases: Bases = (Shared(), Shared(), Shared())
+    for base, entries in zip(bases, maps, strict=True):
+        if None in entries.values():
+            raise ValueError("what its hypotheses share is not there")
+        base.update(entries)  # type: ignore[arg-type]
+    return bases
+
+
+def _read_hypothesis(scheme: WayScheme, entry: Mapping[str, Any], shared: Bases, source: Reader) -> Hypothesis:
     h = Hypothesis(scheme)
     places, at, shown = _read_maps(scheme, source)
     h.places, h.at, h.shown = Layered(shared[0], places), Layered(shared[1], at), Layered(shared[2], shown)
-    h.here, h.size, h.links, *h.kinds = source.numbers(3 + scheme.sensors)
+    h.here, h.size, h.links, apart, *h.kinds = source.numbers(4 + scheme.sensors)
+    h.apart = bool(apart)
     rates = len(RATE_PRIORS)
     h.weight, *counts = source.reals(1 + 2 * rates)
     h.counts = RateCounts(counts[:rates], counts[rates:])
@@ -180,21 +224,52 @@ def _read_hypothesis(scheme: WayScheme, entry: Mapping[str, Any], shared: Maps, 
         one, other = source.numbers(2)
         yes, no = source.reals(2)
         h.undo[one, other] = (yes, no)
-    _check(h)
     return h
 
 
-def _check(h: Hypothesis) -> None:
-    """Refuse a map with ways to places that there are not, or numbers that are none."""
-    numbers = set(h.places)
-    if h.here not in numbers or len(numbers) != h.size:
-        raise ValueError("its agent is in no place of its map")
-    for number in numbers:
-        place = h.places[number]
+def _finish(hypotheses: Sequence[Hypothesis], alive: int) -> None:
+    """Check hypotheses that share a layer, and work their digests out; each place that they share once."""
+    if not hypotheses:
+        return
+    base = hypotheses[0].places.layers[0]
+    shared = {number: digest(place) for number, place in base.items()}
+    total = sum(shared.values())
+    for k, h in enumerate(hypotheses):
+        own = h.places.layers[1]
+        _check(h, own if k else [*base, *own])
+        if k < alive:
+            _check_index(h)
+        h.digest = total + sum(
+            (0 if place is None else digest(place)) - shared.get(number, 0) for number, place in own.items()
+        )
+
+
+def _check(h: Hypothesis, changed: Iterable[int]) -> None:
+    """Refuse a map with ways to places that there are not, or numbers that are none.
+
+    Args:
+        h: the hypothesis.
+        changed: its places that are looked at; the others were found right in another one.
+    """
+    if h.places.get(h.here) is None or not all(map(isfinite, (h.weight, *h.counts.yes, *h.counts.no))):
+        raise ValueError("its agent is in no place of its map, or counts what is no number")
+    for number in changed:
+        place = h.places.get(number)
+        if place is None:
+            continue
         ends = [*(way.to for way in place.ways if way.to != NOWHERE), *(source for source, _ in place.into)]
-        values = [*place.share, *(x for way in place.ways for x in way[:3]), *h.counts.yes, *h.counts.no]
-        if not numbers.issuperset(ends) or not all(map(isfinite, values)):
+        values = [*place.share, *(x for way in place.ways for x in way[:3])]
+        known = all(h.places.get(end) is not None for end in ends)
+        if not (known and all(0 <= way < h.scheme.count for _, way in place.into) and all(map(isfinite, values))):
             raise ValueError(f"place {number} leads to no place of its map, or counts what is no number")
+        if not place.recent or not all(label >= 0 and isfinite(n) for c in place.sights for label, n in c.items()):
+            raise ValueError(f"place {number} was never visited, or shows what is no label")
+
+
+def _check_index(h: Hypothesis) -> None:
+    """Refuse an index that names places that the map has not."""
     listed = [*(h.at.get(key) for key in h.at), *(k for key in h.shown for k in h.shown.get(key) or ())]
-    if not numbers.issuperset(listed):
+    if not all(number is None or h.places.get(number) is not None for number in listed):
         raise ValueError("its index names places that it has not")
+    if sum(1 for _ in h.places) != h.size:
+        raise ValueError("its map has not as many places as it says")

@@ -16,11 +16,23 @@ T = TypeVar("T")
 
 
 class Writer:
-    """Two growing rows: whole numbers, and others."""
+    """Two growing rows: whole numbers, and others; a record that occurs many times is written once, in front."""
 
     def __init__(self) -> None:
         self.whole: list[int] = []
         self.real: list[float] = []
+        self._records: dict[int, tuple[int, Place]] = {}
+
+    def record(self, place: Place) -> None:
+        """Name a record."""
+        self.whole.append(self._records.setdefault(id(place), (len(self._records), place))[0])
+
+    def rows(self) -> dict[str, NDArray[Any]]:
+        """Both rows, the records in front."""
+        front = Writer()
+        front.many([place for _, place in self._records.values()], front.place)
+        whole, real = front.whole + self.whole, front.real + self.real
+        return {"whole": np.array(whole, np.int64), "real": np.array(real, np.float64)}
 
     def many(self, items: Iterable[T], write: Callable[[T], object]) -> None:
         """How many there are, then each."""
@@ -69,6 +81,18 @@ class Reader:
     def __init__(self, whole: Any, real: Any) -> None:
         self.whole, self.real = _row(whole, "whole", np.int64), _row(real, "real", np.float64)
         self._at = self._at_real = 0
+        self._records: list[Place] = []
+
+    def records(self, scheme: WayScheme) -> None:
+        """Read the records, which stand in front."""
+        self._records = self.many(lambda: self.place(scheme))
+
+    def record(self) -> Place:
+        """The record that is named."""
+        index = self.numbers(1)[0]
+        if index < 0:
+            raise CogmapError(DAMAGED.format("it names a record that it has not"))
+        return self._records[index]
 
     def numbers(self, count: int) -> list[int]:
         """So many whole numbers."""

@@ -4,26 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from heapq import nlargest
+from itertools import islice
 from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
-from .branches import Alternative, branches
-from .calm import calm_branch
+from .branches import Alternative, apart, branches
+from .calm import calm_branches
 from .chances import Chances
 from .evidence import log_predictive
 from .extending import begin, extend
 from .folding import pairs, union
-from .hypothesis import Hypothesis
+from .hypothesis import Hypothesis, settle_alike
+from .lookback import BACK, Past, passed_over
 from .options import Change, Checkpoint, TrackerOptions
 from .pruning import log_sum, merged, normalised
 from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
-from .storing import Arrays, Tried, restored, stored
+from .storing import Arrays, Parts, Tried, restored, stored
 
 AGAIN = 16
 """Steps after which a folding that was too improbable is tried again, in a map that has not changed since."""
+
+QUIET = 4
+"""Steps without doubt after which what is improbable is let go."""
+
+SHARED = 16
+"""Steps after which several hypotheses share what they have in common."""
 
 MANY = 4096
 """Foldings that are remembered."""
@@ -55,6 +63,8 @@ class Tracker:
         self._doubts: Sequence[int] = ()
         self._doubted = 0
         self._tried: dict[Tried, int] = {}
+        self._clear, self._quiet = True, 0
+        self._past: tuple[Past, ...] = ()
 
     @property
     def best(self) -> Hypothesis:
@@ -111,6 +121,7 @@ class Tracker:
     def checkpoint(self) -> Checkpoint:
         """What `rollback` needs to undo the next step; it costs as much as there are hypotheses."""
         kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
+        kept += self._clear, self._quiet, self._past
         return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
 
     def rollback(self, checkpoint: Checkpoint) -> None:
@@ -125,7 +136,8 @@ class Tracker:
                 "only the last step can be undone, so take a checkpoint before each"
             )
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
-        self.labels, self.evidence, self.change, self._doubts, self._doubted, tried = checkpoint.kept
+        self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
+        self._clear, self._quiet, self._past = rest
         self._tried = {key: again for key, again in tried.items() if again < self.time + AGAIN}
         self.history.cut(self.time)
         for h, weight in zip(self.hypotheses, checkpoint.weights, strict=True):
@@ -133,8 +145,12 @@ class Tracker:
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
         """All that `restored` needs to walk on: a header for JSON, and arrays of numbers."""
-        kept = self.time, self.evidence, self.labels, self._doubts, self._doubted
-        return stored(self.scheme, self.hypotheses, self.history, self._tried, self.change, kept)
+        numbers = self.time, self._doubted, self._clear, self._quiet
+        parts = Parts(
+            self.hypotheses, self.history, self._tried, self._past, self.change, self._doubts, self.labels,
+            self.evidence, numbers,
+        )  # fmt: skip
+        return stored(self.scheme, parts)
 
     @classmethod
     def restored(
@@ -145,10 +161,11 @@ class Tracker:
         Raises:
             CogmapError: the state is none, is damaged, or is of other ways or sensors.
         """
-        tracker = cls(scheme, options)
-        found = restored(scheme, state)
-        tracker.hypotheses, tracker.history, tracker._tried, tracker.change, kept = found
-        tracker.time, tracker.evidence, tracker.labels, tracker._doubts, tracker._doubted = kept
+        tracker, parts = cls(scheme, options), restored(scheme, state)
+        tracker.hypotheses, tracker.history, tracker.labels = parts.hypotheses, parts.history, parts.labels
+        tracker.evidence, tracker.change, tracker._tried = parts.evidence, parts.change, parts.tried
+        tracker._past, tracker._doubts = parts.past, parts.doubts
+        tracker.time, tracker._doubted, tracker._clear, tracker._quiet = parts.numbers
         for h in tracker.hypotheses:
             h.chances = Chances(h.counts, tracker.labels, size=h.size)
         return tracker
@@ -165,32 +182,68 @@ class Tracker:
 
     def _advanced(self, sensed: Sensed) -> list[Hypothesis]:
         self._settle()
-        previous, drop = self.hypotheses[0], -log(self.options.least)
+        previous, wide = self.hypotheses[0], -log(self.options.least)
+        drop = min(-log(self.options.doubt), wide) if self._clear else wide
         for h in self.hypotheses:
             h.origin = None  # what went before is not kept
             if h.chances.labels != self.labels:
                 h.chances = Chances(h.counts, self.labels, size=h.size)
         happened = self._happened(sensed, drop)
         self.evidence = log_sum([branch.weight for branch in happened])
+        if self._clear:
+            likeliest = max(happened, key=lambda branch: branch.weight)
+            happened = [branch for branch in happened if not apart(branch, likeliest)]
         children = [self._extended(branch, sensed) for branch in happened]
         proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
-        found = normalised(merged(children, proposed), drop=drop, most=self.options.most)
+        found = merged(children, proposed)
+        found = [h for h in found if h.weight > found[0].weight - drop]
+        found = self._doubted_or_clear(found, previous, drop, wide)
         best = found[0]
         self.change = Change("extended", tuple(best.touched)) if best.origin is previous else Change("revised")
         return found
 
+    def _doubted_or_clear(
+        self, found: list[Hypothesis], previous: Hypothesis, drop: float, wide: float
+    ) -> list[Hypothesis]:
+        """What is kept: while nothing is in doubt the best one alone, or else all, with what was passed over before."""
+        step = Past(self.time, previous, previous.marks, self.labels, 0.0)
+        if self._clear and len(found) > 1:
+            floor = found[0].weight - wide
+            again = self._looked_back((*self._past, step), floor, drop, wide)
+            found = merged(found, [*again, *(fold for h in again for fold in self._folds(h, floor))])
+            self._clear, self._quiet = False, 0
+        found, norm = normalised(found, drop=wide, most=self.options.most)
+        self._past = (*self._past, step._replace(norm=norm))[-BACK:]
+        if not self._clear:
+            self._quiet = 0 if self._open_question(found) else self._quiet + 1
+            if self._quiet > QUIET:
+                self._clear, found = True, normalised(found, drop=wide, most=1)[0]
+                found[0].apart = False
+        return found
+
+    def _open_question(self, found: Sequence[Hypothesis]) -> bool:
+        """Whether another hypothesis says more than that a place is not where the pose says."""
+        doubt = log(self.options.doubt)
+        return any(h.weight > doubt and (found[0].apart or not h.apart) for h in found[1:])
+
+    def _looked_back(self, past: tuple[Past, ...], floor: float, drop: float, wide: float) -> list[Hypothesis]:
+        found = passed_over(past, self.history, narrow=drop, wide=wide, floor=floor)
+        return list(islice(found, self.options.most))
+
     def _settle(self) -> None:
         """Share what the last step added, once it cannot be undone any more: nobody reads it differently by this."""
+        self._settled = self.time
         if len(self.hypotheses) == 1:
-            self._settled = self.time
             self.hypotheses[0].settle()
+        elif self.time % SHARED == 0:
+            settle_alike(self.hypotheses)
 
     def _happened(self, sensed: Sensed, drop: float) -> list[Alternative]:
         """The branches that may survive."""
         if self.options.calm and len(self.hypotheses) == 1:
-            alone = calm_branch(self.hypotheses[0], sensed, drop=drop)
-            if alone is not None:
-                return [alone]
+            alone = calm_branches(self.hypotheses[0], sensed, drop=drop)
+            if alone:
+                return alone
         happened: list[Alternative] = []
         floor = -inf
         for h in self.hypotheses:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from ..changes import Changes, Store
 from ..dirichlet import SparseDirichlet
 from ..errors import CogmapError
 from ..growth_event import GrowthEvent
+from ..information import KnownInformation
 from ..motions import Motions
 from ..percept import Percept
 from ..rates import Priors, Rates
@@ -31,9 +32,10 @@ class Context:
         priors: concentrations before evidence.
         rates: counts that a piece of evidence adds.
         changes: the log that every factor writes to.
-        growth: everything that was ever added to the model.
+        growth: what was added to the model.
         visits: which places were entered.
         slip: probability of a slip for poses that are given none.
+        information: what n more observations of a row of counts would teach, looked up where it was met before.
     """
 
     motions: Motions
@@ -43,6 +45,7 @@ class Context:
     growth: list[GrowthEvent]
     visits: Visits
     slip: float
+    information: KnownInformation = field(default_factory=KnownInformation, compare=False)
 
     def grown(self, event: GrowthEvent) -> None:
         """Log something that was added."""

@@ -13,7 +13,6 @@ from ..dirichlet import SparseDirichlet
 from ..domain import Domain
 from ..errors import CogmapError
 from ..growth_event import GrowthEvent
-from ..information import information
 from ..labels import decode, encode
 from .base import Context, Floats, Ints, parts_of
 from .readings import Likelihoods, checked_label, checked_likelihoods, declared
@@ -162,8 +161,10 @@ class Sight(Sensor):
         alpha = np.concatenate([alpha, np.full((len(places), 1), self.table.background)], axis=1)
         many = np.ones(alpha.shape)
         many[:, -1] = others
-        return information(alpha, steps, many)
+        return self.context.information(alpha, steps, many)
 
     def information_unseen(self, steps: int) -> Floats:
         """`[N + 1]` the same in a place that was never imagined."""
-        return information(np.array([[self.table.background]]), steps, np.array([[float(self.table.outcomes)]]))[0]
+        return self.context.information(
+            np.array([[self.table.background]]), steps, np.array([[float(self.table.outcomes)]])
+        )[0]

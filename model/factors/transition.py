@@ -13,7 +13,6 @@ from ..changes import Store
 from ..column import Column
 from ..dirichlet import EMPTY, SparseDirichlet
 from ..errors import CogmapError
-from ..information import information
 from ..percept import Percept
 from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table, parts_of
 
@@ -140,7 +139,7 @@ class Transition(ModelFactor):
         keys, alpha = keys.reshape(shape), alpha.reshape(shape)
         visited: NDArray[np.bool_] = self.context.visits.visited.values[places]
         shown = visited[:, None] & (keys == ELSEWHERE).any(axis=2)
-        return (information(alpha, steps) * ~shown[..., None]).sum(axis=1)
+        return (self.context.information(alpha, steps) * ~shown[..., None]).sum(axis=1)
 
     def tables(self, support: Support) -> Iterable[Table]:
         """B_s[a](s_t, s_t-1), times the coupling; any visited place where the agent was moved."""

@@ -10,6 +10,9 @@ from ..errors import CogmapError
 from ..generative import GenerativeModel
 from .base import Growth, Whereabouts
 
+MOST = 10_000_000
+"""Places that can be known beforehand."""
+
 
 class StaticGrowth(Growth):
     """Starts with every place, none of them connected; entering gives the next one its position.
@@ -18,14 +21,17 @@ class StaticGrowth(Growth):
         places: how many places the world has.
 
     Raises:
-        CogmapError: that is no whole number of 1 or more.
+        CogmapError: that is no whole number of 1 or more, or above `MOST`.
     """
 
     name = "static"
 
     def __init__(self, places: int) -> None:
-        if isinstance(places, bool) or not isinstance(places, int) or places < 1:  # pyright: ignore[reportUnnecessaryIsInstance]
-            raise CogmapError(f"growth: static growth cannot have {places!r} places; give the size of the world")
+        whole = isinstance(places, int) and not isinstance(places, bool)  # pyright: ignore[reportUnnecessaryIsInstance]
+        if not whole or not 1 <= places <= MOST:  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise CogmapError(
+                f"growth: static growth cannot have {places!r} places; give the size of the world, {MOST:,} at most"
+            )
         self.places = places
 
     @property

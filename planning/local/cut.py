@@ -9,6 +9,7 @@ import numpy as np
 
 from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
 from .cache import LocalCache, PlaceRows
+from .dormant import leave_out_dormant
 from .model import Floats, Ints, LocalModel
 from .preferences import Preferences
 from .structure import MapHypotheses, Structure
@@ -97,9 +98,11 @@ def local_model(
     rows.blocked[:, map_.motions.stay] = 0.0
     rows.position[-1] = np.nan
     rows.sights[-1] = cache.unseen()
-    B, successor = _transitions(within, rows, map_.motions.stay)
     entered = np.zeros(len(local), dtype=np.bool_)
     entered[:-1] = map_.visited[within]
+    if not entered[:-1].all():
+        leave_out_dormant(map_, within, rows, entered[:-1])
+    B, successor = _transitions(within, rows, map_.motions.stay)
     visits = slice(look_ahead + 1)
     return LocalModel(
         motions=map_.motions,

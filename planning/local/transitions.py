@@ -14,6 +14,9 @@ MANY = np.iinfo(np.int64).max
 FEW = 64
 """Places up to which one dense product for all actions is quicker than anything that spares work."""
 
+WIDE = 8
+"""Actions from which on it pays to leave out those that no policy takes."""
+
 
 @dataclass(frozen=True)
 class Transitions:
@@ -65,6 +68,13 @@ class Transitions:
         mass = belief[row, place][:, None] * self.probability[place, taken]
         after = np.bincount(at.ravel(), weights=mass.ravel(), minlength=many * size)
         return after.astype(np.float64, copy=False).reshape(many, size)
+
+    def used(self, action: Ints) -> tuple[Transitions, Ints]:
+        """Those of some actions alone, where most are in no use, and these actions by their new numbers."""
+        if self.successors.shape[1] <= WIDE:
+            return self, action
+        numbers, renamed = np.unique(action, return_inverse=True)
+        return Transitions(self.successors[:, numbers], self.probability[:, numbers]), renamed
 
     def settled(self, action: int) -> bool:
         """Whether the action certainly leaves every place as it is."""

@@ -56,15 +56,16 @@ class MapGuided(PolicyGenerator):
         beam: prefixes kept a level, shared by the starts.
 
     Raises:
-        CogmapError: `beam` is no whole number of 1 or more.
+        CogmapError: `beam` is no whole number from 1 to `MAX_POLICIES`.
     """
 
     name: ClassVar[str] = "map_guided"
     beam: int = 64
 
     def __post_init__(self) -> None:
-        if not (isinstance(self.beam, int | np.integer) and self.beam >= 1):  # pyright: ignore[reportUnnecessaryIsInstance]
-            raise CogmapError(f"map_guided: beam is {self.beam!r}; give a whole number of 1 or more")
+        whole = isinstance(self.beam, int | np.integer)  # pyright: ignore[reportUnnecessaryIsInstance]
+        if not whole or isinstance(self.beam, bool) or not 1 <= self.beam <= MAX_POLICIES:
+            raise CogmapError(f"map_guided: beam is {self.beam!r}; give a whole number from 1 to {MAX_POLICIES:,}")
 
     def make(self, model: LocalModel) -> Policies:
         self.check(model.motions, model.look_ahead)

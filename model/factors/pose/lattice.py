@@ -15,7 +15,6 @@ from ...dirichlet import SparseDirichlet
 from ...domain import Domain
 from ...errors import CogmapError
 from ...growth_event import GrowthEvent
-from ...information import information
 from ...labels import decode, encode
 from ...motions import Position
 from ...periods import Periods, reduced
@@ -174,7 +173,7 @@ class Lattice(Pose):
 
     def information(self, places: Ints, steps: int) -> Floats:
         """`[n, N + 1]` nats that 0..N more visits teach of A_p."""
-        return information(self.table.concentration(places)[1], steps)
+        return self.context.information(self.table.concentration(places)[1], steps)
 
     def tables(self, support: Support) -> Iterable[Table]:
         """B_p[a](p_t, p_t-1), anything where the agent was moved; and A_p(p_t, s_t)."""

@@ -1,0 +1,82 @@
+"""Along a walk that somebody else made: what the agent would believe, consider and do at each step of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inference import Belief
+from ..model import CognitiveMap, Slice
+from ..planning import Plan
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """One step of a walk that was followed.
+
+    Attributes:
+        step: the time step, from 0.
+        belief: where the agent believes to be.
+        plan: the policies that it considers, what each is worth, and P(policy).
+        ways: the actions whose way was open, ascending; `stay` is none.
+        probability: `[K]` P(action): the policy posterior summed by first action, over the open ways; zero of others.
+    """
+
+    step: int
+    belief: Belief
+    plan: Plan
+    ways: tuple[int, ...]
+    probability: NDArray[np.float64]
+
+
+class Perceiver(Protocol):
+    """What can be taken along: an `Agent`."""
+
+    map: CognitiveMap
+
+    @property
+    def steps(self) -> int:
+        """Observations taken in so far."""
+        ...
+
+    @property
+    def plan(self) -> Plan:
+        """What it considers."""
+        ...
+
+    @property
+    def window(self) -> Sequence[Slice]:
+        """The last steps."""
+        ...
+
+    def perceive(self, observation: Mapping[str, Any]) -> Belief:
+        """Take in one observation."""
+        ...
+
+
+def follow(agent: Perceiver, walk: Iterable[Mapping[str, Any]]) -> Iterator[Followed]:
+    """Take the agent along a recorded walk, and say at each step how probable it holds each action.
+
+    The agent learns as if it walked itself; what it would have done is never carried out.
+
+    Args:
+        agent: one that has seen nothing yet, or that is to be led on from where it is.
+        walk: what was sensed at each step; from the second on `taken` says which action led there.
+
+    Raises:
+        CogmapError: an observation that `Agent.perceive` refuses, such as one that does not say what was `taken`.
+    """
+    for observation in walk:
+        belief = agent.perceive(observation)
+        plan, stay = agent.plan, agent.map.motions.stay
+        open_ = agent.window[-1].percept.passable or (True,) * len(agent.map.motions)
+        ways = tuple(action for action, is_open in enumerate(open_) if is_open and action != stay)
+        probability = np.zeros(len(open_))
+        probability[list(ways)] = plan.action_probability[list(ways)]
+        if ways and not probability.any():  # it means to stay
+            probability[list(ways)] = 1.0
+        yield Followed(agent.steps - 1, belief, plan, ways, probability / (probability.sum() or 1.0))

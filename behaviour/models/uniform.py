@@ -1,0 +1,7 @@
+"""All ways alike."""
+
+from __future__ import annotations
+
+from .base import ChoiceModel
+
+UNIFORM = ChoiceModel("uniform")

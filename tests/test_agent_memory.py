@@ -1,0 +1,93 @@
+"""What an agent keeps does not grow with time."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+from cogmap.agent import Agent, Settings
+from cogmap.model import CogmapError, GrowthEvent, growth_between
+from cogmap.model.growth_log import GrowthLog
+from cogmap.model.information import KnownInformation, dirichlet_information
+from cogmap.worlds import load_world
+from walks import GRID, assert_same_map, walk
+
+
+def twins(steps: int, *, keep: int, displace_every: int = 0) -> tuple[Agent, Agent]:
+    """Two agents on the same walk, of which one forgets."""
+    agents: list[Agent] = []
+    for kept in (None, keep):
+        world = load_world("4x4_alias")
+        agent = Agent(world.motions, settings=Settings(look_ahead=2), seed=0, keep=kept)
+        for _ in walk(world, agent, steps, displace_every=displace_every):
+            pass
+        agents.append(agent)
+    return agents[0], agents[1]
+
+
+@pytest.mark.parametrize("displace_every", [0, 7])
+def test_what_is_long_ago_is_made_shorter_and_the_map_stays_the_same(displace_every: int) -> None:
+    whole, short = twins(150, keep=60, displace_every=displace_every)
+    assert len(short.map.growth) == len(whole.map.growth)  # there was room
+    short.map.growth.shorten(short.steps - 60)
+    assert len(short.map.growth) < len(whole.map.growth) - 85
+    assert list(short.map.sights) == list(whole.map.sights)
+    for since in (100, 120, 149):
+        mine, theirs = (growth_between(agent.map, since) for agent in (short, whole))
+        assert mine == theirs
+    loaded = Agent.from_state(*short.state())
+    assert_same_map(loaded.map, short.map)
+    seen = {"sight": 0, "open": [True] * 5}
+    assert loaded.step(seen) == short.step(seen)
+
+
+def test_the_log_is_made_shorter_by_itself() -> None:
+    log = GrowthLog(keep=100)
+    log.append(GrowthEvent(0, "place", 0, (0, 0)))
+    for step in range(20_000):
+        log.append(GrowthEvent(step, "time", step))
+        if step % 3 == 0:
+            log.append(GrowthEvent(step, "place", 1, (0, 1)))
+            log.append(GrowthEvent(step, "unbind", 1, (0, 1)))
+            log.append(GrowthEvent(step, "retract", 1))
+    assert len(log) < 5_000
+    assert sum(event.kind == "place" for event in log) == 1 + sum(event.kind == "retract" for event in log)
+
+
+def test_the_trace_is_bounded() -> None:
+    agent = Agent(GRID, settings=Settings(look_ahead=1), seed=0, keep=50)
+    for _ in range(170):
+        agent.step({"sight": 0, "open": [False] * 4 + [True]})
+    assert 50 <= len(agent.trace) < 100
+    assert [record.step for record in agent.trace] == list(range(170 - len(agent.trace), 170))
+    agent.keep = None
+    for _ in range(60):
+        agent.step({"sight": 0, "open": [False] * 4 + [True]})
+    assert len(agent.trace) > 100
+
+
+@pytest.mark.parametrize("keep", [0, 49, -1, True, 1.5, "all"])
+def test_keep_is_a_number_of_steps(keep: Any) -> None:
+    with pytest.raises(CogmapError, match="give a whole number of 50 steps or more, or None"):
+        Agent(GRID, keep=keep)
+
+
+def test_what_is_known_of_information_is_bounded_and_right() -> None:
+    known, rng = KnownInformation(most=50_000), np.random.default_rng(0)
+    for _ in range(400):
+        alpha = rng.uniform(0.1, 3.0, size=(2, int(rng.integers(2, 30))))
+        for _ in range(2):
+            np.testing.assert_allclose(known(alpha, 4), dirichlet_information(alpha, 4), rtol=1e-12)
+        assert sum(len(key) + row.nbytes for (key, _), row in known._known.items()) <= 50_000
+    assert known._known
+
+
+def test_a_new_sight_each_step_leaves_nothing_behind_in_the_module() -> None:
+    agent, other = Agent(GRID, seed=0), Agent(GRID, seed=0)
+    for step in range(100):
+        agent.step({"sight": ("new", step), "open": [False] * 4 + [True]})
+    kept = agent.map._context.information
+    assert sum(sys.getsizeof(key) + row.nbytes for (key, _), row in kept._known.items()) <= kept.most
+    assert not other.map._context.information._known

@@ -1,0 +1,61 @@
+"""Long lists of actions of which few are ever open: plans are those of the short list."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from cogmap.agent import Agent
+from cogmap.model import Motions, Whereabouts
+from cogmap.planning import Plan
+from cogmap.worlds import GRID, MazeEnv, hall
+
+MAZE = hall(4, 5, sights=None)
+WALK = ["right", "right", "down", "left", "left", "down", "right"]
+
+
+def with_more(actions: int) -> Motions:
+    """The grid, and further actions in pairs that undo each other."""
+    more = [(3 + i // 2, 1) if i % 2 else (-3 - i // 2, -1) for i in range(actions)]
+    names = *GRID.names, *(f"never {i}" for i in range(actions))
+    return Motions(names, (*GRID.displacements, *more))
+
+
+def planned(actions: int, *, walked: int, opened: int | None = None) -> Plan:
+    """The plan after a walk, with so many further actions, one of which may have been open at the start."""
+    world = MazeEnv(MAZE)
+    seen, _ = world.reset(options={"start": (0, 0)})
+    agent = Agent(with_more(actions), seed=0)
+    map_, room, place = agent.map, (0, 0), 0
+    for step, name in enumerate(["stay", *WALK[:walked]]):
+        action = GRID.names.index(name)
+        down, right = GRID.displacements[action]
+        before, room = place, (room[0] + down, room[1] + right)
+        place = map_.place_at(room) or 0
+        map_.transitions.learn(before, action, place, 1.0)
+        seen = world.displace(room)
+        open_ = (*seen["open"], *(i == opened and step == 0 for i in range(actions)))
+        map_.mark_visited(place)
+        map_.recall(agent.growth.look(map_, Whereabouts({place: 1.0}), open_, step=step))
+        readings = {"sight": seen["sight"], "open": open_}
+        read = {n: sensor.read(sensor.check(readings[n]), step=step) for n, sensor in map_.sensors.items()}
+        map_.learn(place, read, 1.0)
+    return agent.planner.plan(
+        map_, np.array([place]), np.ones(1), open_=open_, look_ahead=4, rng=np.random.default_rng(0), discount=0.95
+    )
+
+
+@pytest.mark.parametrize(("actions", "walked"), [(12, 5), (12, 7), (40, 2), (40, 7), (100, 1), (100, 6)])
+def test_actions_that_are_never_open_change_no_plan(actions: int, walked: int) -> None:
+    short, long = planned(0, walked=walked), planned(actions, walked=walked)
+    assert {tuple(policy) for policy in long.policies} == {tuple(policy) for policy in short.policies}
+    assert long.names == short.names
+    order = np.lexsort(long.policies.T), np.lexsort(short.policies.T)
+    G = long.expected_free_energy.G[order[0]], short.expected_free_energy.G[order[1]]
+    np.testing.assert_allclose(G[0], G[1], rtol=1e-3, atol=1e-5)
+    long.model.check()
+
+
+def test_an_action_that_was_open_once_may_be_open_again() -> None:
+    plan = planned(12, walked=7, opened=3)
+    used = {plan.model.motions.names[action] for policy in plan.policies.tolist() for action in policy}
+    assert used & {f"never {i}" for i in range(12)} == {"never 2", "never 3"}  # and what undoes it
