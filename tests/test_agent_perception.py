@@ -167,7 +167,7 @@ def test_looks_that_are_not_sure_add_up() -> None:
     assert 0.01 < first[0] < 0.3
     assert 0.5 < first[1] < 0.99
     assert last[0] < 0.02
-    assert last[1] > 0.98
+    assert last[1] > 0.9
     assert last[3] == pytest.approx(0.5, abs=0.3)  # never looked at
 
 
