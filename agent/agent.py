@@ -297,6 +297,7 @@ class Agent:
         state.percept, state.acted, state.choice, self._plan = percept, False, None, None
         state.open = self._recognition.open(percept)
         state.steps += 1
+        self.map.growth.tidy()
         return self.belief
 
     @property

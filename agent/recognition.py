@@ -129,12 +129,10 @@ class Recognition:
         mass, elsewhere = self.mirror.belief(self._weights(), here=self.mirror.places[self._now.here])
         places = np.array(sorted(mass), dtype=np.int64)
         q = np.array([mass[place] for place in places.tolist()])
-        told = map_.log_likelihood(places, percept)
+        told, q = map_.log_likelihood(places, percept), q / q.sum()
         return Belief(
-            message=Message(places, map_.pose.of(places), q / q.sum()),
-            evidence=-float(
-                np.log(np.sum(q / q.sum() * np.exp(-told)))
-            ),  # over these places: 1 / P(o) = E_Q[1 / P(o | s)]
+            message=Message(places, map_.pose.of(places), q),
+            evidence=-float(np.log(q @ np.exp(-told))),  # over these places: 1 / P(o) = E_Q[1 / P(o | s)]
             log_likelihood=told,
             moved=float(self.moved),
             dropped=0.0,

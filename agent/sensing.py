@@ -23,11 +23,12 @@ class Sensing:
         motions = model.motions
         self.actions = tuple(action for action in range(len(motions)) if action != motions.stay)
         self._way = {action: way for way, action in enumerate(self.actions)}
-        inverse = tuple(self._way[motions.inverse[action]] for action in self.actions)
+        undone = [motions.inverse[action] for action in self.actions]
+        inverse = tuple(self._way[action] for action in undone) if all(action >= 0 for action in undone) else None
         placed = model.pose.origin is not None
         self.scheme = WayScheme(
             max(len(self.actions), 1),
-            inverse or (0,),
+            inverse if self.actions else (0,),
             tuple(motions.displacements[action] for action in self.actions) if placed and inverse else None,
             sensors=max(len(model.sights_sensed), 1),
         )

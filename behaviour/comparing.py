@@ -16,6 +16,8 @@ from .source import Source
 Row = dict[str, Any]
 ALL = -1
 """Stands for the fit to all choices where a task names a fold."""
+CHANCE = 1.645
+"""Standard errors that chance exceeds one time in twenty."""
 _SURE = 1.96  # standard errors of a 95 % interval
 
 
@@ -114,10 +116,10 @@ def result_of(rows: Iterable[Row], source: Source, models: Sequence[ChoiceModel]
 
 
 def preferred(held: Mapping[str, Sequence[Sequence[float]]], models: Sequence[ChoiceModel]) -> str | None:
-    """The model that wins by held-out likelihood: of those within one standard error of the best the simplest.
+    """The model that wins by held-out likelihood: the simplest of those that are no worse than the best but by chance.
 
-    The best of several models that contain the right one predicts as well as that one, give or take chance; so the
-    difference has to be more than its own standard error, over bouts, before parameters are paid for.
+    Models that contain the right one predict as well as that one, give or take chance; so the difference has to be more
+    than one time in twenty would be by chance, by its standard error over bouts, before more parameters are believed.
 
     Args:
         held: for each model, how many choices each bout has and what they come to in nats; bouts in the same order.
@@ -130,7 +132,7 @@ def preferred(held: Mapping[str, Sequence[Sequence[float]]], models: Sequence[Ch
     for model in sorted(models, key=lambda model: len(model.parameters)):
         pairs = zip(held[best], held[model.name], strict=True)
         behind = [(a[0], a[1] - b[1]) for a, b in pairs]
-        if model.name == best or sum(d for _, d in behind) <= _error_of_sum(behind):
+        if model.name == best or sum(d for _, d in behind) <= CHANCE * _error_of_sum(behind):
             return model.name
     return best
 

@@ -35,18 +35,27 @@ class GroupFit:
 def folds_of(choices: Sequence[Choices], folds: int = FOLDS) -> list[NDArray[np.int64]]:
     """`[C]` of each individual: the fold in which each choice is held out, whole bouts together.
 
-    The bouts of an individual are dealt out in turn. Where there is one bout in all, its choices are dealt out in as
-    many runs as there are folds.
+    The bouts of an individual are dealt out so that folds have as many choices as can be. Where there are fewer bouts
+    in all than folds, choices are dealt out in as many runs as there are folds.
 
     Raises:
         CogmapError: fewer than two folds.
     """
     if folds < 2:
         raise CogmapError(f"cross-validation: folds is {folds}; use 2 or more")
-    bouts = [np.unique(one.bout, return_inverse=True)[1] for one in choices]
-    if sum(int(numbers.max(initial=-1)) + 1 for numbers in bouts) > 1:
-        return [numbers % folds for numbers in bouts]
-    return [np.arange(len(one)) * folds // max(1, len(one)) for one in choices]
+    if sum(len(np.unique(one.bout)) for one in choices) < folds:
+        return [np.arange(len(one)) * folds // max(1, len(one)) for one in choices]
+    return [_dealt(one.bout, folds, first=i) for i, one in enumerate(choices)]
+
+
+def _dealt(bouts: NDArray[np.int64], folds: int, *, first: int) -> NDArray[np.int64]:
+    """The largest bout first, each to the fold that has least, the first to another fold for each individual."""
+    _, number, size = np.unique(bouts, return_inverse=True, return_counts=True)
+    fold, filled = np.zeros(len(size), dtype=np.int64), np.zeros(folds)
+    for bout in np.argsort(-size, kind="stable").tolist():
+        fold[bout] = (int(np.roll(filled, -first).argmin()) + first) % folds
+        filled[fold[bout]] += size[bout]
+    return fold[number]
 
 
 def fit_group(

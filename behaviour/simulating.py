@@ -6,7 +6,6 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..agent import follow
 from ..model import CogmapError
 from .choices import Compass, Fork, gathered
 from .ground import Ground
@@ -44,16 +43,14 @@ def simulate(
     if steps < 1:
         raise CogmapError(f"simulate: steps is {steps}; use 1 or more")
     values, rng, home = model.values(parameters), np.random.default_rng(seed), ground.home or 0
-    agent = new_agent(ground, look_ahead=look_ahead) if model.needs_agent else None
-    foresight = None if agent is None else Foresight(agent, ground)
+    foresight = Foresight(new_agent(ground, look_ahead=look_ahead), ground) if model.needs_agent else None
     compass, places, bouts = Compass(ground), [home], [0]
     while True:
         fork, prospects = compass.arrive(places[-1]), None
-        if agent is not None and foresight is not None:
+        if foresight is not None:
             before = places[-2] if len(places) > 1 else None
-            followed = next(follow(agent, [ground.observation(places[-1], before=before)]))
-            foresight.arrive(followed)
-            prospects = None if fork is None else Prospects.joined([foresight.look(followed, fork.ways)])
+            foresight.arrive(ground.observation(places[-1], before=before))
+            prospects = None if fork is None else Prospects.joined([foresight.look(fork.ways)])
         if len(places) > steps:
             return Route(name, np.array(places), np.array(bouts))
         ahead = _onward(ground, places) if fork is None else _drawn(model, ground, values, places, fork, prospects, rng)

@@ -153,7 +153,7 @@ def _plan_everywhere(agent: Agent) -> None:
     """Let it keep what a plan keeps of a place, of all places, and look up a sight."""
     places, cache = np.arange(len(agent.map.places)), LocalCache(agent.map, agent.settings.look_ahead)
     for part in np.array_split(places, max(1, len(places) // 1000)):
-        cache.rows(part)
+        cache.ways(part), cache.sights(part)
     agent.map.sensors["sight"].candidates(0)
     agent._cache = cache
 

@@ -32,7 +32,7 @@ def cluster(address: str) -> Generator[Executor]:
     client = _connected(address)
     with _quiet():
         try:
-            yield _ClusterExecutor(client)
+            yield _ClusterExecutor(client, address)
         finally:
             _close(client)
 
@@ -44,13 +44,24 @@ class _ClusterExecutor(Executor):
     slow, and fails at every single one where the scheduler has gone.
     """
 
-    def __init__(self, client: Any) -> None:
-        self._client = client
+    def __init__(self, client: Any, address: str) -> None:
+        self._client, self._address, self._version = client, address, version("cogmap")
+
+    def waiting(self) -> str | None:
+        """What keeps results from coming, if it is not the work itself."""
+        try:
+            known = self._client.sync(self._client.scheduler.identity, callback_timeout=PATIENCE)
+        except Exception:  # whatever it is, it does not answer
+            return f"the Dask scheduler at {self._address} does not answer"
+        if known["workers"]:
+            return None
+        return f"the Dask cluster at {self._address} has no workers left; start one: dask worker {self._address}"
 
     def submit(
         self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
     ) -> Future[Result]:
-        there, here = self._client.submit(fn, *args, pure=False, **kwargs), Future[Result]()
+        there = self._client.submit(_with_same_version, self._version, fn, *args, pure=False, **kwargs)
+        here = Future[Result]()
         there.add_done_callback(partial(_hand_over, here))
         here.add_done_callback(partial(self._cancel, there))
         return here
@@ -64,10 +75,20 @@ class _ClusterExecutor(Executor):
             self._client.loop.add_callback(cancel)
 
 
+def _with_same_version(own: str, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> Result:
+    """Call it, in a worker that may have joined after the others were looked at."""
+    if (other := version("cogmap")) != own:
+        raise CogmapError(f"a Dask worker has cogmap {other}, this is {own}; install the same version there")
+    return fn(*args, **kwargs)
+
+
 def _hand_over(here: Future[Any], there: Any) -> None:
     if here.set_running_or_notify_cancel():
         try:
             here.set_result(there.result())
+        except ModuleNotFoundError as error:
+            lacks = f"a Dask worker has no {error.name}"
+            here.set_exception(CogmapError(f"{lacks}; install cogmap {version('cogmap')} there, and what it needs"))
         except BaseException as error:
             here.set_exception(error)
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import os
 import signal
 import sys
 from collections.abc import Callable, Generator, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor, as_completed
+from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing.context import SpawnContext, SpawnProcess
+from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import Any, ParamSpec, TypeVar
 
@@ -21,6 +23,13 @@ Result = TypeVar("Result")
 
 PATIENCE = 5.0
 """Seconds that a process may take to end."""
+
+SILENCE = 10.0
+"""Seconds without a result after which is said what is waited for, if that is not the work itself."""
+
+MOST_JOBS = 1024
+
+_log = logging.getLogger("cogmap")
 
 
 class WorkerLostError(CogmapError):
@@ -49,7 +58,7 @@ def completed(
     try:
         for index, task in enumerate(tasks):
             left[executor.submit(function, task)] = index
-        yield from _results(left)
+        yield from _results(left, getattr(executor, "waiting", lambda: None))
     except BrokenExecutor as error:
         raise WorkerLostError("a worker process was killed, perhaps out of memory; use fewer jobs") from error
     except _dask_errors() as error:
@@ -100,10 +109,11 @@ def workers(*, jobs: int = 1, dask: str | None = None) -> Generator[Executor | N
         An executor, or None: in this process.
 
     Raises:
-        CogmapError: `jobs` below 1, both given, the package `distributed` is missing, or there is no such cluster.
+        CogmapError: `jobs` below 1 or above `MOST_JOBS`, processes that cannot be started, both given, the package
+            `distributed` is missing, or there is no such cluster.
     """
-    if jobs < 1:
-        raise CogmapError(f"jobs is {jobs}; use 1 or more")
+    if not 1 <= jobs <= MOST_JOBS:
+        raise CogmapError(f"jobs is {jobs}; use 1 to {MOST_JOBS}")
     if dask is not None and jobs > 1:
         raise CogmapError(f"jobs is {jobs} and dask is {dask}; give one of them, a Dask cluster has its own workers")
     if dask is not None:
@@ -118,8 +128,19 @@ def workers(*, jobs: int = 1, dask: str | None = None) -> Generator[Executor | N
         yield None
 
 
-def _results(left: dict[Future[Result], int]) -> Iterator[tuple[int, Result]]:
-    for future in as_completed(list(left)):
+def _results(left: dict[Future[Result], int], waiting: Callable[[], str | None]) -> Iterator[tuple[int, Result]]:
+    finished, said = SimpleQueue[Future[Result]](), None
+    for future in left:
+        future.add_done_callback(finished.put)
+    while left:
+        try:
+            future = finished.get(timeout=SILENCE)
+        except Empty:
+            if (why := waiting()) != said:
+                said = why
+                if why is not None:
+                    _log.warning("cogmap: waiting: %s", why)
+            continue
         if not _succeeded(future):
             yield from ((i, done.result()) for done, i in left.items() if done.done() and _succeeded(done))
             future.result()  # raises
@@ -140,7 +161,10 @@ def _dask_errors() -> tuple[type[BaseException], ...]:
 def _processes(jobs: int) -> Generator[Executor]:
     """A pool that is ended at once, not after its last task, when something goes wrong."""
     context = _Spawning()
-    pool = _Processes(jobs, context, initializer=_end_with_parent)
+    try:
+        pool = _Processes(jobs, context, initializer=_end_with_parent)
+    except OSError as error:
+        raise _no_process(error, jobs) from error
     try:
         yield pool
     except BaseException:
@@ -177,6 +201,14 @@ class _Processes(ProcessPoolExecutor):
     def submit(
         self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
     ) -> Future[Result]:
+        try:
+            return self._submitted(fn, *args, **kwargs)
+        except OSError as error:  # processes start here
+            raise _no_process(error, self._max_workers) from error  # type: ignore[attr-defined]
+
+    def _submitted(
+        self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
+    ) -> Future[Result]:
         if not hasattr(signal, "pthread_sigmask"):
             return super().submit(fn, *args, **kwargs)
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # processes start here, and inherit it
@@ -184,6 +216,11 @@ class _Processes(ProcessPoolExecutor):
             return super().submit(fn, *args, **kwargs)
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _no_process(error: OSError, jobs: int) -> CogmapError:
+    why = f"cannot start {jobs} processes ({error.strerror or error})"
+    return CogmapError(f"{why}; use fewer jobs, or raise the limit (ulimit -n for open files, -u for processes)")
 
 
 def _end_with_parent() -> None:

@@ -15,7 +15,8 @@ import numpy as np
 
 from ..agent import Settings
 from ..model import CogmapError
-from ..worlds import CanDisplace, Chart, HasChart, Place, WorldError, offered, place_of, world_of
+from ..worlds import CanDisplace, Chart, HasChart, ListedWays, Place, WorldError, offered, place_of, world_of
+from ..worlds import World as OfMotions
 from .knowledge import Knowledge, Truth
 from .parts import Maker, Parts
 from .pool import map_seeds
@@ -126,7 +127,9 @@ def set_out(experiment: str, world: World, seed: int, **options: Unpack[Options]
     chart, maker, most = described(experiment, world, **options)
     start, for_agent, rng = draw_start(experiment, world, seed)
     for_world = np.random.SeedSequence(seed).spawn(4)[3].generate_state(1)[0]  # `draw_start` uses the first three
-    own = world_of(chart) if world is chart else deepcopy(world, {id(chart): chart})  # a chart never changes
+    own: Any = world_of(chart) if world is chart else deepcopy(world, {id(chart): chart})  # a chart never changes
+    if isinstance(maker, Parts) and offered(own, OfMotions, experiment).motions.local:
+        own = ListedWays(own)
     return Session(own, maker.make(own, for_agent), start, rng, most, int(for_world), options.get("steps"))
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from rich.box import SIMPLE_HEAD, Box
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.markup import escape
+from rich.segment import Segment
 from rich.table import Table
 from rich.text import Text
 
@@ -40,9 +41,25 @@ def place_text(place: Any) -> str:
     return str(tuple(place) if isinstance(place, list) else place)  # pyright: ignore[reportUnknownArgumentType]
 
 
+class Screen(Console):
+    """A terminal that shows what cannot be printed as Python writes it, so that no name or label can command it."""
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
+        """The segments of what is printed."""
+        for segment in super().render(renderable, options):
+            yield segment if segment.control else Segment(printable(segment.text), segment.style)
+
+
+def printable(text: str) -> str:
+    """The text with every sign but line breaks that cannot be printed, or that a terminal would obey, written out."""
+    if text.isprintable():
+        return text
+    return "".join(sign if sign.isprintable() or sign == "\n" else repr(sign)[1:-1] for sign in text)
+
+
 def say(*lines: object, title: str | None = None, style: str | None = None, markup: bool = False) -> None:
     """A title and a few lines of plain text."""
-    to = Console()
+    to = Screen()
     if title is not None:
         to.print(title, style="bold", markup=False, highlight=False)
     for line in lines:
@@ -69,10 +86,10 @@ def show_table(
     for row in rows[:most]:
         table.add_row(*(escape(str(cell)) for cell in row))
     say(title=title)
-    Console().print(table)
+    Screen().print(table)
     if most is not None and len(rows) > most:
         more = f"… {len(rows) - most} more; show them with --limit {len(rows)}"
-        Console().print(more, style="dim", highlight=False)
+        Screen().print(more, style="dim", highlight=False)
 
 
 def show_facts(facts: Mapping[str, str | Text]) -> None:
@@ -82,4 +99,4 @@ def show_facts(facts: Mapping[str, str | Text]) -> None:
     table.add_column(overflow="fold")
     for name, text in facts.items():
         table.add_row(name, escape(text) if isinstance(text, str) else text)
-    Console().print(table)
+    Screen().print(table)

@@ -47,6 +47,18 @@ class Store(Protocol):
         """Whether `put` could take this, where there are so many places."""
         ...
 
+    def savepoint(self) -> Any:
+        """What `go_back` needs besides the log of changes."""
+        ...
+
+    def level(self) -> None:
+        """Be sound enough to be written to, wherever it was left."""
+        ...
+
+    def go_back(self, point: Any) -> None:
+        """Be as it was, once the old values are back: as long, with all that follows from them."""
+        ...
+
     def touched(self, where: Any) -> Iterable[int] | None:
         """The places whose columns a change at `where` is about; None: any of them."""
         ...
@@ -105,6 +117,7 @@ class Changes:
         self._room = 2 * KEPT
         self._marks: deque[int] = deque(maxlen=STEPS)
         self._undone: list[tuple[int, int]] = []  # spans that come to nothing
+        self._holding = False
         self._begun = 0  # where what `branch` has written since it was entered begins
 
     def __len__(self) -> int:
@@ -114,7 +127,7 @@ class Changes:
     def append(self, entry: Entry) -> None:
         """Log what was written, or what has grown."""
         self._entries.append(entry)
-        if len(self._entries) > self._room:
+        if len(self._entries) > self._room and not self._holding:
             self._trim()
 
     def since(self, cursor: int) -> tuple[Sequence[Entry] | None, int]:
@@ -161,14 +174,14 @@ class Changes:
 
     def _take_back(self, changes: Sequence[Change]) -> list[Change]:
         for store, where, old, new in reversed(changes):
-            store.put(where, old)
             self.append(Change(store, where, new, old))
+            store.put(where, old)
         return list(changes)
 
     def _repeat(self, changes: Sequence[Change]) -> None:
         for change in changes:
-            change.store.put(change.where, change.new)
             self.append(change)
+            change.store.put(change.where, change.new)
 
     def undoable(self) -> tuple[int, list[Entry], list[int], list[tuple[int, int]]]:
         """Where the oldest mark is, the entries since then, the marks, and the spans of entries that were undone."""
@@ -183,6 +196,29 @@ class Changes:
         self._entries, self._marks, self._undone = list(entries), deque(marks, maxlen=STEPS), list(undone)
         self._dropped = first
         self._begun = len(self)
+
+    # -- holding -------------------------------------------------------------------------------------------
+
+    def hold(self) -> tuple[Any, ...]:
+        """Drop nothing until `release`; returns what `held` and `cut` take."""
+        self._holding = True
+        return len(self._entries), tuple(self._marks), list(self._undone), self.branch, self._begun
+
+    def held(self, point: tuple[Any, ...]) -> Sequence[Entry]:
+        """The entries since then."""
+        return self._entries[point[0] :]
+
+    def cut(self, point: tuple[Any, ...]) -> None:
+        """Be as then: what was read since is not true any more."""
+        count, marks, undone, self.branch, self._begun = point
+        del self._entries[count:]
+        self._marks, self._undone, self._holding = deque(marks, maxlen=STEPS), list(undone), False
+
+    def release(self) -> None:
+        """Drop again what nobody needs."""
+        self._holding = False
+        if len(self._entries) > self._room:
+            self._trim()
 
     # -- branches ------------------------------------------------------------------------------------------
 
@@ -229,7 +265,7 @@ class Changes:
         if self.branch.parent or self.branch.forked:
             needed.append(self._begun)
         drop = max(min(needed) - self._dropped, 0)
-        del self._entries[:drop]
-        self._dropped += drop
+        entries, dropped = self._entries[drop:], self._dropped + drop
+        self._entries, self._dropped = entries, dropped  # in one go
         self._undone = [span for span in self._undone if span[0] >= self._dropped]
         self._room = 2 * max(len(self._entries), KEPT)

@@ -52,24 +52,29 @@ class Column:
 
     def resize(self, length: int) -> None:
         """Have so many rows: new ones are appended, or the last are dropped."""
-        self._array[length : self._length] = self._fill
+        self._make_room(length)
+        self._array[self._length : length] = self._fill
+        self._length = length
+
+    def _make_room(self, length: int) -> None:
         while length > len(self._array):
             self._array = np.concatenate([self._array, np.full_like(self._array, self._fill)])
-        self._length = length
 
     def append(self, value: object) -> int:
         """Append one row; returns its index."""
-        self.resize(self._length + 1)
-        self._array[self._length - 1] = value
-        return self._length - 1
+        at = self._length
+        self._make_room(at + 1)
+        self._array[at] = value
+        self._length = at + 1  # last, so that there never is a row without its value
+        return at
 
     def set(self, where: int | tuple[int, int], value: float) -> None:
         """Write one cell."""
         old = self._array.item(where)
         if old != value:
-            self._array[where] = value
-            if self._changes is not None:
+            if self._changes is not None:  # first, so that what is half done can be undone
                 self._changes.append(Change(self, where, old, value))
+            self._array[where] = value
 
     def put(self, where: int | tuple[int, int], value: float) -> None:
         """Write one cell without telling the log."""
@@ -78,6 +83,17 @@ class Column:
     def value(self, numbers: Sequence[float]) -> float:
         """A number of a cell, from a file."""
         return self._array.dtype.type(numbers[0]).item()
+
+    def savepoint(self) -> int:
+        """How many rows it has."""
+        return self._length
+
+    def level(self) -> None:
+        """Nothing: room is made in one go."""
+
+    def go_back(self, point: int) -> None:
+        """Be as long as it was."""
+        self.resize(point)
 
     def fits(self, where: Any, value: Any, places: int) -> bool:
         """Whether `put` can take this, where there are so many places; rows may be other things as well."""

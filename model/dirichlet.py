@@ -120,9 +120,9 @@ class SparseDirichlet:
         old = self._keys.item(row, slot), self._prior.item(row, slot), self._evidence.item(row, slot)
         new = key, prior, evidence
         if new != old:
-            self.put((row, slot), new)
-            if self._changes is not None:
+            if self._changes is not None:  # first, so that what is half done can be undone
                 self._changes.append(Change(self, (row, slot), old, new))
+            self.put((row, slot), new)
 
     def put(self, where: tuple[int, int] | None, value: tuple[int, float, float] | Floats | float) -> None:
         """Write one slot: its outcome, prior and evidence; or all evidence, or the factor that it is multiplied by."""
@@ -143,6 +143,27 @@ class SparseDirichlet:
     def value(self, numbers: Sequence[float]) -> tuple[int, float, float]:
         """Outcome, prior and evidence of a slot, from a file."""
         return int(numbers[0]), numbers[1], numbers[2]
+
+    def savepoint(self) -> tuple[int, int, int]:
+        """Rows, slots, and the size of the domain."""
+        return self._rows, self._keys.shape[1], self.outcomes
+
+    def level(self) -> None:
+        """Have as much room in every array, where it was left while there was made more."""
+        arrays = self._keys, self._prior, self._evidence
+        rows, slots = (max(array.shape[axis] for array in arrays) for axis in (0, 1))
+        if {array.shape for array in (*arrays, self._alpha)} != {(rows, slots)} or len(self._total) != rows:
+            self._resize(rows, slots)
+        self._rows = min(self._rows, rows)
+
+    def go_back(self, point: tuple[int, int, int]) -> None:
+        """Be as it was, once the old values are back."""
+        rows, slots, self.outcomes = point
+        self.resize(rows)
+        for name in ("_keys", "_prior", "_evidence"):
+            setattr(self, name, getattr(self, name)[:, :slots].copy())
+        self._alpha, self._total = np.zeros_like(self._prior), np.zeros(len(self._keys))
+        self._add_up()
 
     def fits(self, where: Any, value: Any, places: int) -> bool:
         """Whether `put` can take this, where there are so many places."""
@@ -218,6 +239,7 @@ class SparseDirichlet:
         """Take everything away from `row` but these outcomes, which have this prior and no evidence."""
         for slot in range(self._keys.shape[1]):
             kept = slot < len(keys)
+            self._set(row, slot, self._keys.item(row, slot), self._prior.item(row, slot), 0.0)
             self._set(row, slot, keys[slot] if kept else EMPTY, prior if kept else 0.0, 0.0)
 
     def evidence(self, row: int, key: int) -> float:
@@ -232,9 +254,9 @@ class SparseDirichlet:
     def fade(self, keep: float) -> None:
         """Multiply all evidence by `keep`, in [0, 1]: what was learned long ago fades."""
         old = self._evidence[: self._rows].copy()
-        self.put(None, keep)
         if self._changes is not None:
             self._changes.append(Change(self, None, old, keep))
+        self.put(None, keep)
 
     def keys(self, rows: Ints | slice) -> Ints:
         """`[n, slots]` outcomes that have a slot in `rows` (`EMPTY` where unused)."""

@@ -79,6 +79,11 @@ class Domain:
         else:
             self._labels, self._index = labels, index
 
+    def cut(self, length: int) -> None:
+        """Have the first so many labels only, wherever it was left."""
+        self._labels = self._labels[:length]
+        self._index = {label: number for number, label in enumerate(self._labels)}
+
     def add(self, label: Hashable) -> int:
         """The number of `label`, which is appended where it is new."""
         found = self.find(label)

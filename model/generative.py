@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .changes import Change, Changes, Store
 from .dirichlet import SparseDirichlet
 from .errors import CogmapError
-from .factors import Displacement, Lattice, ModelFactor, Pose, Sensor, Sight, Transition, Ways
+from .factors import Displacement, Lattice, ModelFactor, NoPose, Pose, Sensor, Sight, Transition, Ways
 from .factors.base import Context
 from .growth_event import GrowthEvent, GrowthKind
 from .growth_log import GrowthLog
@@ -71,7 +71,9 @@ class GenerativeModel:
         self.growth = GrowthLog()
         self.visits = Visits(self.changes)
         self.transitions = Transition()
-        self.pose = pose or Lattice()
+        self.pose = pose or (Lattice() if motions.placed else NoPose())
+        if isinstance(self.pose, Lattice) and not motions.placed:
+            raise CogmapError("pose: these actions have no displacements, so places have no positions; give NoPose()")
         self.displacement = None if displacement is None else Displacement(displacement)
         given = [Sight(), Ways()] if sensors is None else list(sensors)
         self.sensors = {sensor.name: sensor for sensor in given}
@@ -150,15 +152,16 @@ class GenerativeModel:
             there = self.pose.place_at(position)
             raise CogmapError(f"map: position {position} has place {there} already; use place_at")
         place = self._size
+        self.changes.append(Change(self, place, False, True))  # first, so that what is half done can be undone
         self.put(place, True)
-        self.changes.append(Change(self, place, False, True))
         shown = position if position is None or len(position) == len(self.motions.displacements[0]) else None
         self._log(step, "place", place, shown, source, action)
         if position is not None:
             self._settle(place, position, step)
         elif source is not None and action is not None:
             self.transitions.link(source, action, place)
-            self.transitions.link(place, self.motions.inverse[action], source)
+            if self.motions.inverse[action] >= 0:
+                self.transitions.link(place, self.motions.inverse[action], source)
         return place
 
     def bind(
@@ -256,6 +259,15 @@ class GenerativeModel:
         """Whether a place exists, from a file."""
         return bool(numbers[0])
 
+    def savepoint(self) -> None:
+        """Nothing: see `savepoint.savepoint`."""
+
+    def level(self) -> None:
+        """Nothing."""
+
+    def go_back(self, point: None) -> None:
+        """Nothing."""
+
     def fits(self, where: Any, value: Any, places: int) -> bool:
         """Whether `put` can take this: the next place comes, or the last one goes."""
         return where == (places if value else places - 1)
@@ -295,8 +307,8 @@ class GenerativeModel:
         for place in reversed(range(before)):
             self.blank(place)
             self.pose.blank(place)
-            self.put(place, False)
             self.changes.append(Change(self, place, True, False))
+            self.put(place, False)
         self._log(step, "retract", before)
 
     def take_back(self, mark: int, *, step: int) -> None:

@@ -29,11 +29,10 @@ class GrowthLog(list[GrowthEvent]):
         self.keep = keep
         self._room = ROOM
 
-    def append(self, event: GrowthEvent) -> None:
-        """Log an event; now and then what is long ago is made shorter."""
-        super().append(event)
+    def tidy(self) -> None:
+        """Now and then, make shorter what is long ago."""
         if self.keep is not None and len(self) > self._room:
-            self.shorten(event.step - self.keep)
+            self.shorten(self[-1].step - self.keep)
             self._room = 2 * len(self) + ROOM
 
     def shorten(self, before: int) -> None:

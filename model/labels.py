@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Hashable
 from typing import Any, cast
 
 import numpy as np
 
 from .errors import CogmapError
+
+_SURROGATE = re.compile(r"[\ud800-\udfff]")
 
 
 def encode(label: Hashable, *, where: str = "save") -> Any:
@@ -27,6 +30,8 @@ def encode(label: Hashable, *, where: str = "save") -> Any:
         raise CogmapError(
             f"{where}: cannot write label {label!r}, JSON has none such; label with a finite number or a str"
         )
+    if isinstance(label, str) and _SURROGATE.search(label):
+        raise CogmapError(f"{where}: cannot write label {label!r}, it has half of a character; label with whole text")
     if isinstance(label, tuple):
         return {"tuple": [encode(part, where=where) for part in cast(tuple[Hashable, ...], label)]}
     if label is None or isinstance(label, bool | int | float | str):

@@ -30,23 +30,41 @@ class MotionSpec(Protocol):
 class Motions:
     """The actions: names, displacements in Z^n, and who undoes whom.
 
+    Where actions have no displacements, each pair that undoes each other, and each action of which that is not known,
+    is given an axis of its own, so that there are some; they say nothing, and only `NoPose()` goes with them.
+
     Attributes:
         names: action names, in the order of the action indices.
         displacements: one vector of `n` integers an action; exactly one is zero (`stay`).
-        inverse: for each action the index of the action that undoes it.
-        stay: index of the action that goes nowhere.
+        reverse: without displacements, the index of the action that undoes each, -1 where nobody knows; () of all.
+        placed: whether displacements were given.
+        inverse: for each action the index of the action that undoes it, -1 where nobody knows.
+        stay: index of the action that goes nowhere; without displacements the one of that name.
 
     Raises:
-        CogmapError: names repeat, vectors differ in length, an action has no inverse, or there is
-            not exactly one that stays.
+        CogmapError: names repeat, vectors differ in length, an action has no inverse, there is not exactly one that
+            stays, or `reverse` is none.
     """
 
     names: tuple[str, ...]
-    displacements: tuple[Position, ...]
+    displacements: tuple[Position, ...] = ()
+    reverse: tuple[int, ...] = ()
+    placed: bool = field(init=False)
     inverse: tuple[int, ...] = field(init=False)
     stay: int = field(init=False)
 
     def __post_init__(self) -> None:
+        if not self.names:
+            raise CogmapError("motions: give at least one action, and one displacement for each name")
+        if len(set(self.names)) < len(self.names):
+            raise CogmapError(f"motions: names repeat in {self.names}; make them unique")
+        object.__setattr__(self, "placed", bool(self.displacements))
+        if self.placed:
+            self._place()
+        else:
+            self._pair()
+
+    def _place(self) -> None:
         self._check_shape()
         where = {displacement: i for i, displacement in enumerate(self.displacements)}
         if len(where) < len(self.names):
@@ -63,11 +81,32 @@ class Motions:
         object.__setattr__(self, "inverse", tuple(inverse))
         object.__setattr__(self, "stay", where[zero])
 
+    def _pair(self) -> None:
+        """Inverses as told, and an axis for each pair."""
+        if "stay" not in self.names:
+            raise CogmapError("motions: without displacements one action must be called 'stay'; add it")
+        stay, count = self.names.index("stay"), len(self.names)
+        inverse = list(self.reverse or (-1,) * count)
+        inverse[stay : stay + 1] = [stay]
+        known = all(isinstance(back, int) and -1 <= back < count for back in inverse)  # pyright: ignore[reportUnnecessaryIsInstance]
+        pairs = known and all(back < 0 or inverse[back] in (-1, i) for i, back in enumerate(inverse))
+        if len(self.reverse or inverse) != count or not pairs or inverse.count(stay) > 1:
+            raise CogmapError(f"motions: reverse is {self.reverse}; give the action that undoes each, -1 for unknown")
+        axes = dict.fromkeys(min(i, back) if back >= 0 else i for i, back in enumerate(inverse) if i != stay)
+        place = {action: axis for axis, action in enumerate(axes)}
+        vectors: list[Position] = []
+        for i, back in enumerate(inverse):
+            first = min(i, back) if back >= 0 else i
+            vectors.append(
+                tuple((1 if i == first else -1) * (place.get(first) == axis) for axis in range(max(len(axes), 1)))
+            )
+        object.__setattr__(self, "displacements", tuple(vectors))
+        object.__setattr__(self, "inverse", tuple(inverse))
+        object.__setattr__(self, "stay", stay)
+
     def _check_shape(self) -> None:
-        if not self.names or len(self.names) != len(self.displacements):
+        if len(self.names) != len(self.displacements):
             raise CogmapError("motions: give at least one action, and one displacement for each name")
-        if len(set(self.names)) < len(self.names):
-            raise CogmapError(f"motions: names repeat in {self.names}; make them unique")
         lengths = {len(displacement) for displacement in self.displacements}
         if len(lengths) != 1 or lengths == {0}:
             raise CogmapError("motions: displacements differ in length; use vectors of one Z^n, n >= 1")
@@ -80,12 +119,13 @@ class Motions:
         try:
             names, given = (tuple(spec), tuple(spec.values())) if isinstance(spec, Mapping) else _listed(spec)
             vectors = tuple(tuple(operator.index(x) for x in vector) for vector in given)
+            reverse = tuple(operator.index(x) for x in getattr(spec, "reverse", ())) if not vectors else ()
         except (AttributeError, TypeError) as error:
             raise CogmapError(
                 f"motions: {type(spec).__name__} is no set of motions in whole numbers; give world.motions or "
                 "{name: displacement}"
             ) from error
-        return cls(names, vectors)
+        return cls(names, vectors, reverse)
 
     def __len__(self) -> int:
         return len(self.names)

@@ -38,14 +38,14 @@ class Visits:
     def note(self, place: int) -> None:
         """The agent was in `place`."""
         if not self.visited.values[place]:
+            self._changes.append(Change(self, place, False, True))  # first, so that what is half done can be undone
             self.put(place, True)
-            self._changes.append(Change(self, place, False, True))
 
     def forget(self) -> None:
         """The place that was entered last for the first time was not."""
         place = self.order.values.item(-1)
+        self._changes.append(Change(self, place, True, False))  # first, as above
         self.put(place, False)
-        self._changes.append(Change(self, place, True, False))
 
     def put(self, where: int, value: bool) -> None:
         """The last visited place, or the next one, without telling the log."""
@@ -59,6 +59,30 @@ class Visits:
     def value(self, numbers: Sequence[float]) -> bool:
         """Whether it was visited, from a file."""
         return bool(numbers[0])
+
+    def undo(self, where: int, old: bool) -> None:
+        """Have the place as the last visited one, or not, whether that was done or only meant."""
+        last = len(self.order) and self.order.values.item(-1) == where
+        if old and not last:
+            self.order.append(where)
+        elif last and not old:
+            self.order.resize(len(self.order) - 1)
+
+    def savepoint(self) -> int:
+        """How many places there are, and in which order they were entered is in the log."""
+        return len(self.visited)
+
+    def level(self) -> None:
+        """Nothing: what goes wrong is put right in the end."""
+
+    def go_back(self, point: int) -> None:
+        """Have so many places, and of each whether it was entered, as the order has it."""
+        self.first.resize(0)
+        self.visited.resize(0)
+        self.resize(point)
+        order = self.order.values
+        self.first.values[order] = np.arange(len(order))
+        self.visited.values[order] = True
 
     def fits(self, where: Any, value: Any, places: int) -> bool:
         """Whether `put` can take this, where there are so many places."""

@@ -34,7 +34,8 @@ def evaluate(model: LocalModel, policies: Policies, terms: Sequence[Term] = TERM
         raise CogmapError(f"evaluate: actions must be 0..{len(model.motions) - 1}; one policy has another")
     terms = tuple(terms)
     values = _in_groups(model, policies, terms)
-    values[[term.kind == "information" for term in terms]] *= model.information_weight
+    if model.information_weight != 1.0:
+        values[[term.kind == "information" for term in terms]] *= model.information_weight
     return ExpectedFreeEnergy(terms, values)
 
 
@@ -65,8 +66,10 @@ def _evaluate(model: LocalModel, policies: Policies, terms: tuple[Term, ...]) ->
     """`[T, P]` the terms of each policy."""
     length, moving = policies.actions.shape[1], _moving(model, policies.actions)
     prefixes = policies.prefixes if moving == length else prefixes_of(policies.actions[:, :moving])
-    rolled, ends = _roll(model, prefixes), prefixes.of[:, -1]
-    gains = np.stack([term.gain(rolled) for term in terms])
+    rolled, ends = _kept_roll(model, policies, prefixes), prefixes.of[:, -1]
+    gains = np.empty((len(terms), len(prefixes)))
+    for row, term in zip(gains, terms, strict=True):
+        row[:] = term.gain(rolled)
     total = _summed(model.discount, prefixes, gains).take(ends, axis=1)
     if moving < length:
         last = Staying.after(rolled, ends)
@@ -83,6 +86,20 @@ def _moving(model: LocalModel, actions: Ints) -> int:
     moves = np.flatnonzero((actions != stay).any(axis=0))
     moving = int(moves[-1]) + 1 if len(moves) else 1
     return moving if length - moving > model.look_ahead else length
+
+
+def _kept_roll(model: LocalModel, policies: Policies, prefixes: Prefixes) -> Rollout:
+    """Beliefs rolled forward, once for policies that come again, as long as belief and ways are the same."""
+    kept = model.kept
+    if kept is None or all(policies is not made for made in kept.policies.values()):
+        return _roll(model, prefixes)
+    before: Rollout | None = kept.rollouts.get(id(policies))
+    if before is not None and np.array_equal(before.belief[0], model.belief):
+        rolled = before.again(model)
+    else:
+        rolled = _roll(model, prefixes)
+    kept.rollouts[id(policies)] = rolled
+    return rolled
 
 
 def _roll(model: LocalModel, prefixes: Prefixes) -> Rollout:

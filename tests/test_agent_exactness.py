@@ -13,7 +13,7 @@ from cogmap.worlds import MazeEnv, labyrinth, load_world
 from parts import agent_with
 from walks import walk
 
-MANY = 1 << 30
+MANY = 1_000_000
 
 
 def assert_plain(agent: Agent) -> None:

@@ -159,16 +159,14 @@ def test_no_way_may_have_been_looked_at(doors: Any) -> None:
 
 
 def test_looks_that_are_not_sure_add_up() -> None:
-    agent, believed = Agent(GRID, seed=0), []
-    for _ in range(5):
-        agent.step({"sight": 1, "open": [0.8, 0.2, True, None, True], "taken": "stay"})
-        believed.append(agent.map.blocked(np.array([0]))[0])
-    first, last = believed[0], believed[-1]
-    assert 0.01 < first[0] < 0.3
-    assert 0.5 < first[1] < 0.99
-    assert last[0] < 0.02
-    assert last[1] > 0.9
-    assert last[3] == pytest.approx(0.5, abs=0.3)  # never looked at
+    agent = Agent(GRID, seed=0)
+    for looks in range(1, 5):
+        agent.step({"sight": 1, "open": [0.8, 0.2, True, 0.5, True], "taken": "stay"})
+        odds = 4.0**looks
+        blocked = agent.map.blocked(np.array([0]))[0]
+        np.testing.assert_allclose(
+            blocked[[0, 1, 3]], [1 / (1 + odds), odds / (1 + odds), 0.5], atol=0.16
+        )  # a look may be wrong, and ways are open mostly
 
 
 def test_staying_is_always_open() -> None:

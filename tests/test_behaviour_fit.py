@@ -144,7 +144,7 @@ def test_bad_input() -> None:
     model, choices = MODELS["habit"], some_choices(agent=False)
     with pytest.raises(CogmapError, match="no parameter 'charm'"):
         model.values({"charm": 1.0})
-    with pytest.raises(CogmapError, match=r"lapse: 1\.5 is out of bounds; give a number from 0 to 1"):
+    with pytest.raises(CogmapError, match=r"lapse: 1\.5 is out of bounds; give a number from 0\.0001 to 0\.9999"):
         simulate(model, ground(), steps=5, parameters={"lapse": 1.5})
     with pytest.raises(CogmapError, match="no model is called 'hope'"):
         models_named(["hope"])

@@ -156,11 +156,12 @@ def test_following_says_what_the_agent_would_do() -> None:
 
 
 def test_what_is_expected_beyond_a_way_is_the_agents_own_G(ground: Ground) -> None:
-    agent = new_agent(ground, look_ahead=4)
+    agent, walk = new_agent(ground, look_ahead=4), list(ground.observations([0, 1, 3]))
     foresight = Foresight(agent, ground)
-    for followed in follow(agent, ground.observations([0, 1, 3])):
-        foresight.arrive(followed)
-    found = foresight.look(followed, ground.ways[3])  # at the last of them
+    for observation in walk:
+        foresight.arrive(observation)
+    found = foresight.look(ground.ways[3])
+    *_, followed = follow(new_agent(ground, look_ahead=4), walk)
     names = list(agent.map.motions.names)
     for i, way in enumerate(ground.ways[3]):
         of = followed.plan.policies[:, 0] == names.index(way.action)

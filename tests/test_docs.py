@@ -114,7 +114,9 @@ def test_reference_has_all_that_is_public(reference: ModuleType, tmp_path: Path)
     page = reference.reference_page("planning", ["cogmap.planning.reference.predicted_places"])
     for name in cogmap.planning.__all__:
         number = isinstance(getattr(cogmap.planning, name), int)
-        assert (f"#{name}" if number else f"::: {reference.at_home(f'cogmap.planning.{name}')}\n") in page
+        assert (
+            f"#cogmap.planning.{name}" if number else f"::: {reference.at_home(f'cogmap.planning.{name}')}\n"
+        ) in page
     assert reference.at_home("cogmap.views.explain") == "cogmap.views.explain.explain"
     assert page.index("Further parts") < page.index("::: cogmap.planning.reference.predicted_places")
     assert reference.owner("cogmap.agent.mapper.Mapper.learn") == "cogmap.agent.mapper.Mapper"

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import socket
 import sys
+import threading
 import time
 from collections.abc import Iterator
 from functools import partial
@@ -17,6 +18,7 @@ from cogmap.experiments import (
     completed,
     dask_cluster,
     map_tasks,
+    pool,
     run_cells,
     workers,
 )
@@ -142,3 +144,41 @@ def test_a_cluster_without_workers_is_refused(monkeypatch: pytest.MonkeyPatch) -
 def test_without_the_package_the_way_to_install_it_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert refusal("here:8786").endswith("run: pip install 'cogmap[dask]'")
+
+
+def test_a_worker_of_another_version_that_joins_later_is_one_line(address: str) -> None:
+    with workers(dask=address) as executor:
+        replaced(address, "metadata.version = lambda name: '99.0'")
+        replaced(address, "import cogmap.experiments.dask_cluster as there\nthere.version = metadata.version")
+        try:
+            with pytest.raises(CogmapError, match=r"a Dask worker has cogmap 99\.0, this is .*; install the same"):
+                map_tasks(nap, range(2), executor=executor)
+        finally:
+            replaced(address, "importlib.reload(metadata)")
+            replaced(address, "import cogmap.experiments.dask_cluster as there\nthere.version = metadata.version")
+
+
+def test_a_cluster_that_loses_its_workers_says_so_and_goes_on(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    distributed: Any = pytest.importorskip("distributed")
+    monkeypatch.setattr(pool, "SILENCE", 0.3)
+    with (
+        distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0") as cluster,
+        workers(dask=cluster.scheduler_address) as executor,
+    ):
+        results = completed(nap, range(4), executor=executor)
+        next(results)
+        cluster.scale(0)
+        threading.Timer(2.5, cluster.scale, (1,)).start()
+        assert len(list(results)) == 3
+    assert [record.message for record in caplog.records if "has no workers left; start one" in record.message]
+
+
+def missing_module(number: int) -> int:
+    raise ModuleNotFoundError("No module named 'gtsam'", name="gtsam")
+
+
+def test_a_worker_that_lacks_a_package_is_one_line(address: str) -> None:
+    with workers(dask=address) as executor, pytest.raises(CogmapError, match="a Dask worker has no gtsam; install"):
+        map_tasks(missing_module, range(1), executor=executor)

@@ -9,7 +9,7 @@ import pytest
 from cogmap.agent import Agent
 from cogmap.experiments import Moment, Parts, Trail, exploration, explore_many, judge, walk
 from cogmap.model import CogmapError, CognitiveMap, Motions, NoPose
-from cogmap.worlds import GRID, MAZES, GraphWorld, MazeEnv, NoisyWorld, ring, torus
+from cogmap.worlds import GRID, MAZES, GraphWorld, MazeEnv, NoisyWorld, geometric, ring, torus
 
 UP, DOWN, LEFT, RIGHT, STAY = range(5)
 
@@ -173,3 +173,9 @@ def test_a_lattice_needs_displacements() -> None:
 
 def _seed() -> Any:
     return np.random.SeedSequence(0)
+
+
+def test_worlds_whose_ways_belong_to_the_place_are_explored() -> None:
+    run = walk(geometric(6, degree=3, seed=1), 0, steps=15).run
+    assert run.places is not None
+    assert 0.0 < (run.known or 0.0) <= 1.0

@@ -143,7 +143,7 @@ def test_at_an_error_what_has_finished_comes_first() -> None:
 
 def test_executors_that_do_not_go_together_are_refused() -> None:
     for options, message in (
-        ({"jobs": 0}, "jobs is 0; use 1 or more"),
+        ({"jobs": 0}, "jobs is 0; use 1 to 1024"),
         ({"jobs": 2, "dask": "localhost:8786"}, "jobs is 2 and dask is localhost:8786; give one of them"),
     ):
         with pytest.raises(CogmapError, match=message), workers(**options):  # type: ignore[arg-type]
@@ -419,3 +419,21 @@ def test_options_that_do_not_go_together_are_refused(command: list[object], mess
     assert message in result.stderr
     assert result.stderr.count("\n") == 1
     assert os.listdir() == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="no limit of open files")
+def test_processes_that_cannot_be_started_are_one_line() -> None:
+    code = (
+        "import resource; resource.setrlimit(resource.RLIMIT_NOFILE, (16, 16)); "
+        "from cogmap.experiments.cli import main; main()"
+    )
+    command = [sys.executable, "-c", code, "explore", "3x3", "--runs", "8", "--jobs", "8"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert done.stderr.startswith("cogmap: cannot start 8 processes (Too many open files); use fewer jobs, or")
+    assert done.stderr.count("\n") == 1
+
+
+def test_more_processes_than_a_machine_has_are_refused() -> None:
+    with pytest.raises(CogmapError, match="jobs is 100000; use 1 to 1024"), workers(jobs=100_000):
+        pytest.fail("it began")

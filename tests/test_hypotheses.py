@@ -159,7 +159,8 @@ def test_what_forks_have_in_common_is_shared():
     before = [{key: h.get(key) for key in "abcd"} for h in (one, other)]
     Layered.settle_alike([one, other])
     assert [{key: h.get(key) for key in "abcd"} for h in (one, other)] == before
-    assert "a" not in one.layers[1] and "a" not in other.layers[1]
+    assert "a" not in one.layers[1]
+    assert "a" not in other.layers[1]
 
 
 def test_a_torus_is_found_to_close_on_itself():

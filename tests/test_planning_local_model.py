@@ -226,3 +226,26 @@ def test_likeliest_is_the_greatest_of_the_dense_table() -> None:
 def test_successors_that_do_not_fit_are_refused(successors: np.ndarray, p: np.ndarray, message: str) -> None:
     with pytest.raises(CogmapError, match=message):
         Planner().decide(replace(random_model(0), B=Transitions(successors, p)), rng=np.random.default_rng(0))
+
+
+def test_a_long_way_is_searched_for_once_and_again_when_a_way_has_changed() -> None:
+    asked: list[int] = []
+
+    class Asked(LocalCache):
+        def likely(self, places: np.ndarray) -> np.ndarray:
+            asked.extend(places.tolist())
+            return super().likely(places)
+
+    map_, goal = corridor(300), Preferences(places={250: 5.0})
+    cache = Asked(map_, 3)
+    first = rooms_of(model_of(map_, 20, goal, cache))
+    assert len(asked) > 200
+    asked.clear()
+    on = rooms_of(model_of(map_, 21, goal, cache))
+    assert len(asked) < 20
+    assert set(range(21, 251)) <= set(on) <= set(first) | {24}
+    assert rooms_of(model_of(map_, 21, Preferences(places={240: 5.0}), cache))[-1] == 240
+    model_of(map_, 21, goal, cache)
+    map_.B_s.add(map_.row(40, ON), 41, -30.0)
+    map_.B_s.add(map_.row(40, ON), 40, 30.0)
+    assert rooms_of(model_of(map_, 22, goal, cache)) == list(range(19, 26))

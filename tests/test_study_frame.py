@@ -29,6 +29,7 @@ NAMES = [
     "insight",
     "localisation",
     "martinet",
+    "mice",
     "rooms",
     "tolman",
 ]

@@ -18,6 +18,7 @@ from cogmap.inference.hypotheses import (
     open_probability,
     rates_of,
     where_to,
+    whereabouts,
 )
 from cogmap.model import CogmapError
 from hypothesis import given, settings
@@ -237,8 +238,11 @@ def test_what_it_is_told_of_a_move_is_believed():
         (lambda header, arrays: ({**header, "version": 99}, arrays), "version 99"),
         (lambda header, arrays: ({**header, "scheme": {}}, arrays), "other ways or sensors"),
         (lambda header, arrays: (header, {"whole": arrays["whole"]}), "damaged"),
-        (lambda header, arrays: (header, {**arrays, "whole": arrays["whole"][:-1]}), "ends too soon"),
-        (lambda header, arrays: (header, {**arrays, "real": np.append(arrays["real"], 1.0)}), "goes on"),
+        (lambda header, arrays: (header, {**arrays, "whole": arrays["whole"][:-1]}), "not those that were written"),
+        (
+            lambda header, arrays: (header, {**arrays, "real": np.append(arrays["real"], 1.0)}),
+            "not those that were written",
+        ),
         (lambda header, arrays: (header, {**arrays, "real": arrays["real"] * np.nan}), "damaged"),
         (lambda header, arrays: (header, {**arrays, "whole": arrays["whole"].astype(float)}), "no row of int64"),
         (lambda header, arrays: ({**header, "numbers": [20, 10_000, True, 0]}, arrays), "damaged"),
@@ -250,18 +254,48 @@ def test_states_that_are_none_are_refused(spoil, message):
         Tracker.restored(LATTICE, None, spoil(header, arrays))
 
 
-def test_states_with_any_number_changed_are_refused_or_walk():
-    steps = percepts(1, 25)
-    header, arrays = walked(Tracker(LATTICE), steps).state()
+def test_states_with_any_number_changed_are_refused():
+    header, arrays = walked(Tracker(LATTICE), percepts(1, 25)).state()
     rng = np.random.default_rng(0)
-    refused = 0
-    for _ in range(150):
-        whole = arrays["whole"].copy()
-        whole[rng.integers(len(whole))] += int(rng.integers(-3, 90))
-        try:
-            tracker = Tracker.restored(LATTICE, None, (header, {**arrays, "whole": whole}))
-        except CogmapError:
-            refused += 1
-            continue
-        walked(tracker, [replace(steps[1], action=None)])
-    assert refused > 20
+    for name in ("whole", "real"):
+        for _ in range(20):
+            changed = arrays[name].copy()
+            changed[rng.integers(len(changed))] += 1
+            with pytest.raises(CogmapError, match="damaged"):
+                Tracker.restored(LATTICE, None, (header, {**arrays, name: changed}))
+
+
+def test_where_it_was_put_among_many_places_is_one_message_over_one_map():
+    size, tracker = 5, Tracker(LATTICE)
+    at, actions = (0, 0), [None]
+    for row in range(size):
+        actions += [3 if row % 2 == 0 else 2] * (size - 1) + [1] * (row < size - 1)
+    at_of: dict[int, tuple[int, int]] = {}
+
+    def sensed(action: int | None, *, seen: bool = True, told: bool = False) -> Sensed:
+        ways = tuple(float(_beyond(at, way, size) != at) for way in range(4))
+        return Sensed((at[0] * size + at[1] if seen else None,), ways, action, told=told)
+
+    for action in actions:
+        at = at if action is None else _beyond(at, action, size)
+        tracker.step(sensed(action), [size * size])
+        at_of[tracker.best.here] = at
+    assert len(at_of) == size * size
+    at = (2, 1)
+    tracker.step(sensed(None, seen=False, told=True), [size * size])
+    inner = [number for number, where in at_of.items() if min(where) > 0 and max(where) < size - 1]
+    assert tracker.best.crowd is not None
+    assert sum(whereabouts(tracker.best).values()) == pytest.approx(1.0, abs=1e-6)
+    assert [whereabouts(tracker.best)[number] for number in inner] == pytest.approx([1 / 9] * 9, rel=0.1)
+    assert tracker.certainty() < 0.2
+    before, size_before = tracker.best.counts.yes, tracker.best.size
+    other = Tracker.restored(LATTICE, None, tracker.state())
+    for action in (0, 0, 2):
+        at = _beyond(at, action, size)
+        for one in (tracker, other):
+            one.step(sensed(action, seen=False), [size * size])
+    assert at_of[tracker.best.here] == at == (0, 0)
+    assert tracker.certainty() > 0.95
+    assert summary(tracker) == summary(other)
+    assert tracker.best.size == size_before
+    assert len(before) == len(tracker.best.counts.yes)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import gymnasium as gym
+import numpy as np
 import pytest
 from cogmap.worlds import (
     MAZES,
@@ -9,8 +10,10 @@ from cogmap.worlds import (
     Chart,
     ChartPart,
     HasChart,
+    ListedWays,
     World,
     WorldError,
+    geometric,
     load_world,
     offered,
     place_of,
@@ -77,3 +80,24 @@ def test_a_part_of_a_chart_is_a_chart(whole: Chart) -> None:
     assert (part.positions is None) == (whole.positions is None)
     with pytest.raises(WorldError, match="outside this part"):
         part.find(next(place for place in whole.places if place not in beside))
+
+
+def test_ways_of_a_place_as_actions_of_the_whole_world() -> None:
+    world = ListedWays(geometric(12, degree=3, seed=1))
+    chart = world.unwrapped.chart
+    most = max(len(chart.exits(place)) for place in chart.places)
+    assert len(world.motions.names) == world.action_space.n == most
+    observation, info = world.reset(seed=0)
+    assert observation.keys() == {"sight", "open"}
+    assert world.observation_space["open"].contains(observation["open"].astype("int8"))
+    for place in chart.places:
+        seen = world.displace(place)
+        exits = list(chart.exits(place).values())
+        assert seen["open"].tolist() == [True] * len(exits) + [False] * (most - len(exits))
+        assert np.array_equal(world.observe()["open"], seen["open"])
+        for action in range(most):
+            world.displace(place)
+            _, _, _, _, info = world.step(action)
+            assert info["place"] == (exits[action] if action < len(exits) else place)
+    with pytest.raises(WorldError, match="actions of the whole world already"):
+        ListedWays(torus(3, 3))

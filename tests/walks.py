@@ -80,10 +80,11 @@ def assert_cache_is_fresh(agent: Agent) -> None:
     places = np.arange(len(agent.map.places))
     for cache in (kept, fresh):
         cache.refresh()
-    rows, new = kept.rows(places), fresh.rows(places)
-    for name in type(rows).__slots__:
-        np.testing.assert_array_equal(getattr(rows, name), getattr(new, name), err_msg=name)
-    np.testing.assert_array_equal(kept.likely(places), new.likely[:-1])
+    for rows, new in ((kept.ways(places), fresh.ways(places)), (kept.sights(places), fresh.sights(places))):
+        for name in type(rows).__slots__:
+            np.testing.assert_array_equal(getattr(rows, name), getattr(new, name), err_msg=name)
+    np.testing.assert_array_equal(kept.likely(places), fresh.ways(places).likely[:-1])
+    np.testing.assert_array_equal(kept.unseen(), fresh.unseen())
 
 
 def assert_agent_is_sound(agent: Agent) -> None:

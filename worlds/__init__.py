@@ -21,7 +21,7 @@ from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place
 from .routes import shortest_path, walk_length
 from .text import format_maze, parse_maze
 from .text_styles import FORMATS, read_maze
-from .wrappers import StateWorld, UnseenWays, frozen_lake
+from .wrappers import ListedWays, StateWorld, UnseenWays, frozen_lake
 
 __all__ = [
     "FORMATS",
@@ -41,6 +41,7 @@ __all__ = [
     "HasChart",
     "Label",
     "Layout",
+    "ListedWays",
     "Maze",
     "MazeEnv",
     "Motions",

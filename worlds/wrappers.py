@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import gymnasium as gym
+import numpy as np
 from gymnasium import spaces
 
 from .errors import WorldError
 from .generate import at_least
 from .motions import Motions
-from .protocol import Observation, World, offered
+from .protocol import HasChart, Observation, World, offered
 
 
 class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):
@@ -39,6 +40,60 @@ class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):
     def displace(self, place: Any) -> Observation:
         """Move the agent to `place` without a word, and return what it senses there."""
         return self.observation(self.env.get_wrapper_attr("displace")(place))
+
+
+class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
+    """A world whose ways belong to the place, for agents whose actions are those of the whole world.
+
+    Action 0 stays, action i takes the i-th way that is listed; a place with fewer ways has the others shut.
+    Observations have `open` instead of `ways`, and no bearings and displacements: what an action does differs from
+    place to place, so nobody can say which undoes which.
+
+    Args:
+        world: its `motions.local` is true.
+
+    Raises:
+        WorldError: its actions are those of the whole world already.
+    """
+
+    def __init__(self, world: gym.Env[Observation, Any]) -> None:
+        super().__init__(world)
+        if not offered(world, World, "listing ways").motions.local:
+            raise WorldError(f"{world} has actions of the whole world already; use it as it is")
+        chart = offered(world, HasChart, "listing ways").chart
+        most = max(len(chart.exits(place)) for place in chart.places)
+        self.motions = Motions(("stay", *(f"way {i}" for i in range(1, most))))
+        self.action_space = spaces.Discrete(most)
+        told = {"ways", "bearings", "displacement"}
+        inner: Any = world.observation_space
+        sensed = {key: space for key, space in inner.spaces.items() if key not in told}
+        self._sensed = {*sensed}
+        self.observation_space = spaces.Dict({**sensed, "open": spaces.MultiBinary(most)})
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Reset the world."""
+        observation, info = self.env.reset(seed=seed, options=options)
+        return self._listed(observation), info
+
+    def step(self, action: Any) -> tuple[Observation, Any, bool, bool, dict[str, Any]]:
+        """Take the way of this number; one that is not there leads nowhere."""
+        observation, reward, terminated, truncated, info = self.env.step(action)
+        return self._listed(observation), reward, terminated, truncated, info
+
+    def observe(self) -> Observation:
+        """What the agent senses now, without acting."""
+        return self._listed(self.env.get_wrapper_attr("observe")())
+
+    def displace(self, place: Any) -> Observation:
+        """Move the agent to `place` without a word, and return what it senses there."""
+        return self._listed(self.env.get_wrapper_attr("displace")(place))
+
+    def _listed(self, observation: Observation) -> Observation:
+        seen = {key: value for key, value in observation.items() if key in self._sensed}
+        ways = [True, *map(bool, observation["ways"].values())]
+        return {**seen, "open": np.array(ways + [False] * (len(self.motions.names) - len(ways)))}
 
 
 class StateWorld(gym.Wrapper[Observation, Any, Any, Any]):

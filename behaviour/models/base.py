@@ -15,11 +15,13 @@ from ..terms import Parameter, Term
 
 Floats = NDArray[np.float64]
 
+LAPSES = (2.0, 20.0)
+"""Of the Beta prior over the lapse rate."""
 LAPSE = Parameter(
     name="lapse",
     meaning="ε: share of the choices that are made at random",
-    low=0.0,
-    high=1.0,
+    low=1e-4,
+    high=0.9999,
     start=0.05,
     spread=0.03,
     typical=(0.01, 0.3),
@@ -100,7 +102,11 @@ class ChoiceModel:
 
     def log_prior(self, values: Floats) -> tuple[float, Floats]:
         """Nats of the prior over the parameters, and `[p]` its derivatives."""
-        total, slopes = 0.0, [np.zeros(min(1, len(values)))]
+        if not len(values):
+            return 0.0, values
+        (a, b), lapse = LAPSES, float(values[-1])
+        total = (a - 1.0) * float(np.log(lapse)) + (b - 1.0) * float(np.log1p(-lapse))
+        slopes = [np.array([(a - 1.0) / lapse - (b - 1.0) / (1.0 - lapse)])]
         for term, part in zip(self.terms, self._split(values), strict=True):
             nats, slope = term.log_prior(part)
             total += nats

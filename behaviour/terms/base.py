@@ -27,6 +27,8 @@ class Parameter:
         start: where a fit sets out, and what simulated individuals have unless told otherwise.
         spread: standard deviation between individuals in a hierarchical fit.
         typical: between which values further fits set out.
+        doubt: standard deviation of the weak normal prior around `start` that keeps what choices do not tell from
+            running away; none unless given.
     """
 
     name: str
@@ -36,6 +38,7 @@ class Parameter:
     start: float
     spread: float
     typical: tuple[float, float]
+    doubt: float = np.inf
 
     def check(self, value: float) -> float:
         """The value, if it is within bounds (else CogmapError)."""
@@ -67,5 +70,7 @@ class Term(ABC):
         """`[C, K]` nats of each way, and `[p, C, K]` their derivatives by each parameter."""
 
     def log_prior(self, values: Floats) -> tuple[float, Floats]:
-        """Nats of a prior over the parameters (maximum a posteriori), and `[p]` its derivatives; flat by default."""
-        return 0.0, np.zeros_like(values)
+        """Nats of a prior over the parameters (maximum a posteriori), and `[p]` its derivatives: see `doubt`."""
+        start, doubt = np.array([(p.start, p.doubt) for p in self.parameters]).T
+        away = (values - start) / doubt
+        return -0.5 * float(away @ away), -away / doubt

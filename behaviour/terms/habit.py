@@ -12,6 +12,8 @@ from .base import Floats, Parameter, Term
 
 COUNTS = 1.0
 """Dirichlet counts of each action before anything was seen."""
+LIKENESS = 1.0
+"""Nats by which rows differ from the mean of the rows with the same last move, and these means from theirs."""
 _OTHERS = tuple(i for i in range(len(RELATIONS)) if i != FORWARD)
 _NEVER = 8.0
 
@@ -24,10 +26,12 @@ class Habit(Term):
 
     Args:
         order: 1, turns as such; 2, turns that depend on the last one; 3, on the last two.
+        likeness: standard deviation of the prior by which a row is like the others: what was seen after one pair of
+            moves tells something of the others, the more the more moves they share.
     """
 
-    def __init__(self, order: int = 1) -> None:
-        self.order = order
+    def __init__(self, order: int = 1, *, likeness: float = LIKENESS) -> None:
+        self.order, self.likeness = order, likeness
         rows = list(product(RELATIONS, repeat=order - 1))
         self.parameters = tuple(
             Parameter(
@@ -62,4 +66,14 @@ class Habit(Term):
         top = logits.max(axis=1, keepdims=True)
         log_E = logits - top - np.log(np.exp(logits - top).sum(axis=1, keepdims=True))
         slope = COUNTS * (1.0 - len(RELATIONS) * np.exp(log_E[:, 1:]))
-        return COUNTS * float(log_E.sum()), slope.ravel()
+        nats = COUNTS * float(log_E.sum())
+        own = values.reshape(*(len(RELATIONS),) * (self.order - 1), len(_OTHERS))
+        for axis in range(self.order - 2, -1, -1):  # away from the mean over the earliest move first
+            mean = own.mean(axis=axis)
+            away = own - np.expand_dims(mean, axis)
+            nats -= 0.5 * float((away**2).sum()) / self.likeness**2
+            share = len(RELATIONS) ** (self.order - 2 - axis)  # of each parameter in such a mean
+            wide = away.reshape(-1, len(_OTHERS)).repeat(share, axis=0) / share
+            slope = slope - wide / self.likeness**2
+            own = mean
+        return nats, slope.ravel()

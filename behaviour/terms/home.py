@@ -11,7 +11,8 @@ from .base import Floats, Parameter, Term
 
 
 def _pull(name: str, meaning: str) -> Parameter:
-    return Parameter(name=name, meaning=meaning, low=-10.0, high=10.0, start=0.0, spread=0.2, typical=(-1.0, 1.0))
+    spans = {"low": -10.0, "high": 10.0, "start": 0.0, "spread": 0.2, "doubt": 3.0}
+    return Parameter(name=name, meaning=meaning, typical=(-1.0, 1.0), **spans)
 
 
 class Home(Term):

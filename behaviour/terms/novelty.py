@@ -24,6 +24,7 @@ class Novelty(Term):
             start=0.5,
             spread=0.3,
             typical=(0.1, 2.0),
+            doubt=5.0,
         ),
         FORGETTING,
     )

@@ -12,4 +12,5 @@ FORGETTING = Parameter(
     start=0.05,
     spread=0.03,
     typical=(0.005, 0.3),
+    doubt=0.5,
 )

@@ -22,6 +22,7 @@ class Recency(Term):
             start=0.5,
             spread=0.3,
             typical=(0.2, 2.0),
+            doubt=5.0,
         ),
         Parameter(
             name="fading",
@@ -31,6 +32,7 @@ class Recency(Term):
             start=0.2,
             spread=0.05,
             typical=(0.05, 0.4),
+            doubt=0.5,
         ),
     )
 

@@ -36,6 +36,7 @@ class Value(Term):
             start=0.1,
             spread=0.05,
             typical=(0.02, 0.5),
+            doubt=10.0,
         ),
         Parameter(
             name="discount",
@@ -45,6 +46,7 @@ class Value(Term):
             start=0.6,
             spread=0.1,
             typical=(0.3, 0.9),
+            doubt=1.0,
         ),
         FORGETTING,
     )

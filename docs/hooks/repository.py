@@ -17,6 +17,7 @@ PAGES = {
     "README.md": "index.md",
     "CHANGELOG.md": "changelog.md",
     "CONTRIBUTING.md": "contributing.md",
+    "SECURITY.md": "security.md",
     "LICENSE": "licence.md",
     "benchmarks/README.md": "benchmarks.md",
     "examples/README.md": "examples/index.md",
@@ -41,7 +42,7 @@ def decision_uris() -> list[str]:
 
 def project_uris() -> list[str | dict[str, str]]:
     """The other pages made from files of the repository."""
-    return ["benchmarks.md", "contributing.md", "changelog.md", {"Licence": "licence.md"}]
+    return ["benchmarks.md", "contributing.md", "security.md", "changelog.md", {"Licence": "licence.md"}]
 
 
 def pages() -> dict[str, str]:

@@ -10,22 +10,7 @@ import typer
 from rich.markup import escape
 
 from ..text import number, say, say_saved, seeds_of, show_table, spread
-from .options import (
-    Agent,
-    Dask,
-    Format,
-    Jobs,
-    LookAhead,
-    Noise,
-    Policies,
-    Pose,
-    Runs,
-    Seed,
-    Sights,
-    Trace,
-    World,
-    world_of,
-)
+from . import options as opt
 from .progress import counting, progress
 
 if TYPE_CHECKING:
@@ -55,73 +40,62 @@ PARTLY_DRAWN, MOST_DRAWN = 2_000, 20_000
 
 
 def explore_command(
-    world: World,
-    agent: Agent = "cogmap",
-    runs: Runs = None,
-    seed: Seed = 0,
-    look_ahead: LookAhead = 6,
+    world: opt.World,
+    agent: opt.Agent = "cogmap",
+    runs: opt.Runs = None,
+    seed: opt.Seed = 0,
+    look_ahead: opt.LookAhead = 6,
     max_steps: MaxSteps = None,
     steps: Steps = None,
-    noise: Noise = None,
-    sights: Sights = None,
-    format: Format = "text",
-    pose: Pose = None,
-    policies: Policies = "map_guided",
+    noise: opt.Noise = None,
+    sights: opt.Sights = None,
+    format: opt.Format = "text",
+    pose: opt.Pose = None,
+    policies: opt.Policies = "map_guided",
     growth: Growth = "predicted",
     engine: Engine = "numpy",
-    jobs: Jobs = 1,
-    dask: Dask = None,
+    jobs: opt.Jobs = 1,
+    dask: opt.Dask = None,
     json: Json = None,
     save: Save = None,
-    trace: Trace = None,
+    trace: opt.Trace = None,
     out: Out = None,
 ) -> None:
     """Explore a maze, until every room was visited and every transition is believed at 0.6 or more.
 
     Exit code 0, or 1 where the one walk (without --runs) did not complete.
     """
+    from ... import experiments as lab
     from ...model import GROWTHS, CogmapError
     from ...views import explore_figure
-    from .. import (
-        Parts,
-        chart_of,
-        check_outputs,
-        exploration,
-        explore_many,
-        file_named,
-        unused,
-        workers,
-        write_json,
-        write_picture,
-    )
     from .walk_text import show_walk
 
-    place = world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
     options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine, "pose": pose}
-    every = [Parts.named(agent, growth=name, **options) for name in names]
-    sweep, chart = runs is not None or len(every) > 1, chart_of(place)
+    every = [lab.Parts.named(agent, growth=name, **options) for name in names]
+    sweep, chart = runs is not None or len(every) > 1, lab.chart_of(place)
     _check(agent, len(every), save, trace, out, dask=dask is not None and not sweep)
     if steps is not None and max_steps is not None:
         raise CogmapError("--steps walks on whatever is complete, and --max-steps gives up; give one of them")
     walked: Any = {"max_steps": max_steps, "steps": steps}
-    picture = out if sweep or out is not None else unused(file_named(chart.name, ".png"))
-    check_outputs([json, save, trace, picture], inputs=[world], picture=picture)
+    picture = out if sweep or out is not None else lab.unused(lab.file_named(chart.name, ".png"))
+    lab.check_outputs([json, save, trace, picture], inputs=[world], picture=picture)
     results: list[dict[str, Any]] = []
     if sweep:
         total = (runs or 1) * len(every)
-        with workers(jobs=jobs, dask=dask) as executor, counting(f"exploring {chart.name}", total) as one_more:
+        with lab.workers(jobs=jobs, dask=dask) as executor, counting(f"exploring {chart.name}", total) as one_more:
             where: Any = {"runs": runs or 1, "seed": seed, "executor": executor, "on_done": one_more}
             for parts in every:
-                made = explore_many(place, agent=parts, **walked, **where)
-                results.append(exploration(place, made, agent=parts, **walked))
+                made = lab.explore_many(place, agent=parts, **walked, **where)
+                results.append(lab.exploration(place, made, agent=parts, **walked))
         _show_sweeps(results)
     done = None if sweep and not (save or trace or picture) else _walk(place, chart, seed, every[0], walked, trace)
     if done is not None and not sweep:
         show_walk(chart, done, agent=agent)
-        results = [exploration(place, [done.run], agent=every[0], **walked)]
+        results = [lab.exploration(place, [done.run], agent=every[0], **walked)]
     if json is not None:
-        write_json(json, results[0] if len(results) == 1 else results)
+        lab.write_json(json, results[0] if len(results) == 1 else results)
     if done is not None and save is not None:
         done.walker.save(save)
     shown = None if done is None or picture is None else _drawn(chart, done.path)
@@ -132,7 +106,9 @@ def explore_command(
         known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
         with progress("drawing", 1):
             title = f"{chart.name}{'' if shown is chart else ' (the part walked)'}, {agent}, seed {seed}"
-            picture = write_picture(picture, explore_figure(shown, done.path, title=title, **known), new=out is None)
+            picture = lab.write_picture(
+                picture, explore_figure(shown, done.path, title=title, **known), new=out is None
+            )
     say_saved(runs=json, agent=save, trace=trace, picture=picture)
     if done is not None and not sweep and not done.finished and steps is None:
         say(f"Not complete after {len(done.path) - 1} steps; allow more with --max-steps.", style="bold red")

@@ -8,6 +8,8 @@ from typing import Any, NoReturn
 import typer
 from typer.core import TyperGroup
 
+from ..text import printable
+
 BAD_INPUT, INTERRUPTED = 2, 130
 
 # typer before 0.20 raises the errors of click, later versions bring their own
@@ -43,7 +45,7 @@ class CogmapGroup(TyperGroup):
 
 def fail(message: str, *, code: int = BAD_INPUT) -> NoReturn:
     """Say why in one line on stderr, and exit."""
-    print(f"cogmap: {' '.join(message.split())}", file=sys.stderr)
+    print(f"cogmap: {printable(' '.join(message.split()))}", file=sys.stderr)
     sys.exit(code)
 
 

@@ -7,39 +7,24 @@ from typing import Any
 import typer
 
 from ..text import count, number, place_text, say, say_saved, seeds_of, spread
-from .options import (
-    Dask,
-    Format,
-    Jobs,
-    Json,
-    LookAhead,
-    MaxStepsTwice,
-    Noise,
-    Policies,
-    Pose,
-    Runs,
-    Seed,
-    Sights,
-    World,
-    world_of,
-)
+from . import options as opt
 from .progress import counting
 
 
 def kidnap_command(
-    world: World,
-    runs: Runs = None,
-    seed: Seed = 0,
-    look_ahead: LookAhead = 6,
-    max_steps: MaxStepsTwice = None,
-    policies: Policies = "map_guided",
-    jobs: Jobs = 1,
-    dask: Dask = None,
-    noise: Noise = None,
-    sights: Sights = None,
-    format: Format = "text",
-    pose: Pose = None,
-    json: Json = None,
+    world: opt.World,
+    runs: opt.Runs = None,
+    seed: opt.Seed = 0,
+    look_ahead: opt.LookAhead = 6,
+    max_steps: opt.MaxStepsTwice = None,
+    policies: opt.Policies = "map_guided",
+    jobs: opt.Jobs = 1,
+    dask: opt.Dask = None,
+    noise: opt.Noise = None,
+    sights: opt.Sights = None,
+    format: opt.Format = "text",
+    pose: opt.Pose = None,
+    json: opt.Json = None,
 ) -> None:
     """Explore a maze, then be moved to another room without a word: how soon does the agent know where it is?
 
@@ -47,7 +32,7 @@ def kidnap_command(
     """
     from .. import Parts, chart_of, check_kidnap, check_outputs, kidnap_many, kidnap_result, workers, write_json
 
-    place = world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
     options: Any = {"agent": Parts.named(policies=policies, look_ahead=look_ahead, pose=pose), "max_steps": max_steps}
     check_kidnap(place)
     check_outputs([json], inputs=[world])

@@ -7,24 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from ..text import count, number, place_text, say, say_saved, seeds_of
-from .options import (
-    Agent,
-    Dask,
-    Format,
-    Jobs,
-    Json,
-    LookAhead,
-    MaxStepsTwice,
-    Noise,
-    Policies,
-    Pose,
-    Runs,
-    Seed,
-    Sights,
-    Trace,
-    World,
-    world_of,
-)
+from . import options as opt
 from .progress import counting
 
 Goal = Annotated[str, typer.Option(metavar="LABEL", help="The label to go to; the agent is there when it stays.")]
@@ -37,61 +20,50 @@ Weight = Annotated[float, typer.Option(help="W: log preference of the goal over 
 
 
 def navigate_command(
-    world: World,
+    world: opt.World,
     goal: Goal,
-    agent: Agent = "cogmap",
+    agent: opt.Agent = "cogmap",
     unexplored: Unexplored = False,
-    runs: Runs = None,
-    seed: Seed = 0,
-    look_ahead: LookAhead = 6,
-    max_steps: MaxStepsTwice = None,
-    policies: Policies = "map_guided",
+    runs: opt.Runs = None,
+    seed: opt.Seed = 0,
+    look_ahead: opt.LookAhead = 6,
+    max_steps: opt.MaxStepsTwice = None,
+    policies: opt.Policies = "map_guided",
     weight: Weight = 8.0,
     close: Close = None,
-    jobs: Jobs = 1,
-    dask: Dask = None,
-    noise: Noise = None,
-    sights: Sights = None,
-    format: Format = "text",
-    pose: Pose = None,
-    json: Json = None,
-    trace: Trace = None,
+    jobs: opt.Jobs = 1,
+    dask: opt.Dask = None,
+    noise: opt.Noise = None,
+    sights: opt.Sights = None,
+    format: opt.Format = "text",
+    pose: opt.Pose = None,
+    json: opt.Json = None,
+    trace: opt.Trace = None,
 ) -> None:
     """Explore a maze, be moved to a random room without a word, then go to a sight: in how many steps?
 
     Exit code 0, or 1 where the one run (without --runs) did not reach it.
     """
-    from .. import (
-        Parts,
-        chart_of,
-        check_goal,
-        check_outputs,
-        navigate,
-        navigate_many,
-        navigate_result,
-        parse_goal,
-        workers,
-        write_json,
-    )
+    from ... import experiments as lab
     from .tracing import Tracing, check_trace
 
     check_trace(agent, trace)
-    place = world_of(world, noise=noise, sights=sights, format=format, seed=seed)
-    label, name, many = parse_goal(place, goal), chart_of(place).name, runs or 1
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    label, name, many = lab.parse_goal(place, goal), lab.chart_of(place).name, runs or 1
     task: Any = {"weight": weight, "closed": [_room(text) for text in close or ()], "known": not unexplored}
-    check_goal(place, label, **task)
-    check_outputs([json, trace], inputs=[world])
-    parts = Parts.named(agent, policies=policies, look_ahead=look_ahead, pose=pose)
+    lab.check_goal(place, label, **task)
+    lab.check_outputs([json, trace], inputs=[world])
+    parts = lab.Parts.named(agent, policies=policies, look_ahead=look_ahead, pose=pose)
     options: Any = {"goal": label, "agent": parts, "max_steps": max_steps, **task}
-    with workers(jobs=jobs, dask=dask) as executor, counting(f"navigating in {name}", many) as one_more:
-        done = navigate_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)
-    result = navigate_result(place, done, **options)
+    with lab.workers(jobs=jobs, dask=dask) as executor, counting(f"navigating in {name}", many) as one_more:
+        done = lab.navigate_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)
+    result = lab.navigate_result(place, done, **options)
     say(*(_one(result) if runs is None else _many(result)), title=f"{name}, goal {label}")
     if json is not None:
-        write_json(json, result)
+        lab.write_json(json, result)
     if trace is not None:
-        tracing = Tracing(trace, chart_of(place), title=f"{name}, goal {label}, seed {seed}", goals=(label,))
-        navigate(place, seed, watch=tracing, **options)
+        tracing = Tracing(trace, lab.chart_of(place), title=f"{name}, goal {label}, seed {seed}", goals=(label,))
+        lab.navigate(place, seed, watch=tracing, **options)
         tracing.save()
     say_saved(runs=json, trace=trace)
     if runs is None and not done[0].reached:

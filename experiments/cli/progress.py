@@ -17,9 +17,10 @@ AT_ONCE = 0.5  # what is done within the first so many seconds was done before, 
 def progress(what: str, total: int) -> Generator[Callable[[int], None]]:
     """Yields a function that takes how much of `total` is done. Without a terminal nothing is shown."""
     from rich import progress as rich
-    from rich.console import Console
 
-    console = Console(stderr=True)
+    from ..text import Screen
+
+    console = Screen(stderr=True)
     if not console.is_terminal:
         yield lambda done: None
         return

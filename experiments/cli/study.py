@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..text import say
-from .options import Dask, Jobs, Seed
+from . import options as opt
 from .progress import counting
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ Name = Annotated[
     typer.Argument(
         metavar="NAME",
         help="exploration, rooms, growth, cost, identity, localisation, "
-        "goals, donut, tolman, martinet, insight; or all.",
+        "goals, donut, tolman, martinet, insight, mice; or all.",
         show_default=False,
     ),
 ]
@@ -44,11 +44,11 @@ SOME_FAILED = 1
 def study_command(
     name: Name,
     runs: Agents = None,
-    seed: Seed = 0,
+    seed: opt.Seed = 0,
     out: Out = None,
     look_ahead: LookAhead = None,
-    jobs: Jobs = 1,
-    dask: Dask = None,
+    jobs: opt.Jobs = 1,
+    dask: opt.Dask = None,
 ) -> None:
     """Run a study of the paper; rows (JSON), tables (CSV), figures and a report (Markdown, HTML) are written.
 

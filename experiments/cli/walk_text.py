@@ -18,7 +18,7 @@ from ...views import hexed, ink_on, sight_colour
 from ...worlds import Chart, Maze, Place
 from ..exploring import ExploreRun, Walk
 from ..judging import BELIEVED
-from ..text import count, show_facts
+from ..text import Screen, count, show_facts
 from .inspect_facts import ways_known
 
 MOST_MOVES = 400  # of a path written out
@@ -28,7 +28,7 @@ _BLOCKS, _ASCII = "▁▂▃▄▅▆▇█", "_.-=*#"
 
 def show_walk(chart: Chart, walk: Walk, *, agent: str) -> None:
     """The maze, the path, the map learned, and F and G over time."""
-    to, run, rooms = Console(), walk.run, count(len(chart.places), "room")
+    to, run, rooms = Screen(), walk.run, count(len(chart.places), "room")
     to.print(f"[bold]{escape(chart.name)}[/bold]: {rooms}, agent {agent}, seed {run.seed}", highlight=False)
     if isinstance(chart, Maze):
         to.print(_maze(chart, walk.path, to.width))

@@ -9,22 +9,7 @@ from .study import EVERYTHING, Findings, Study, failed_seeds, studies, study_nam
 from .tables import Table
 
 __all__ = [
-    "EVERYTHING",
-    "Findings",
-    "Interval",
-    "Options",
-    "Outcome",
-    "Share",
-    "Study",
-    "Table",
-    "bootstrap",
-    "failed_seeds",
-    "legend_below",
-    "panels",
-    "plot_bars",
-    "run_studies",
-    "run_study",
-    "studies",
-    "study_named",
+    "EVERYTHING", "Findings", "Interval", "Options", "Outcome", "Share", "Study", "Table", "bootstrap",
+    "failed_seeds", "legend_below", "panels", "plot_bars", "run_studies", "run_study", "studies", "study_named",
     "wilson",
-]
+]  # fmt: skip

@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from heapq import nlargest
 from math import exp, inf, log
 from typing import NamedTuple
 
 from .evidence import log_likelihood, log_predictive, probability, way_odds
 from .hypothesis import Hypothesis
+from .logs import log_sum
 from .rates import OPEN
 from .records import NOWHERE, Place
 from .scheme import Sensed
 
-LOOK_ALIKES = 64
+CROWD = 8
+"""Places from which on those that a silent move may have led to are one hypothesis, with a message over them."""
+
+MOST = 4096
 """Places into which a silent move is thought of at most, the last ones first seen."""
 
 RELINKED = 0.02
 """P(a way that was walked once leads elsewhere after all, since that walk was another); falls with walks squared."""
+
+
+FAINT = 18.0
+"""Nats below which a place of a crowd is let go."""
 
 
 class Alternative(NamedTuple):
@@ -29,6 +38,7 @@ class Alternative(NamedTuple):
         to: the place the agent is in now; `NOWHERE` for one never seen.
         charted: the new place is where the pose says.
         astray, failed, moved: posterior probabilities that this is how it happened.
+        crowd: where the agent may be, with log probabilities, in one map; None where that is `to`.
     """
 
     weight: float
@@ -39,6 +49,7 @@ class Alternative(NamedTuple):
     astray: float
     failed: float
     moved: float
+    crowd: Mapping[int, float] | None = None
 
 
 def apart(branch: Alternative, best: Alternative) -> bool:
@@ -60,6 +71,9 @@ class Lead(NamedTuple):
 
 def branches(h: Hypothesis, sensed: Sensed, *, drop: float, floor: float = -inf) -> Iterator[Alternative]:
     """What may have happened, as far as it is above `floor` and within `drop` (nats) of the most probable so far."""
+    if h.crowd is not None and not sensed.told:
+        yield from strayed(h, sensed, h.crowd, drop=drop)
+        return
     walker = Walker(h, sensed)
     walker.floor = floor
     for branch in walker.moves():
@@ -72,6 +86,7 @@ class Walker:
 
     Attributes:
         floor: log weight below which branches need not be named.
+        surplus: how far above zero a log-likelihood may be.
         unseen: places that are thought to be there but were never seen.
         put_there: log P(the agent was moved into a certain place).
         arrived: places that a branch leads to with no change of the map.
@@ -83,6 +98,7 @@ class Walker:
         self._open: dict[int, float] = {}
         self.evidence: dict[int, float] = {}
         self.floor = -inf
+        self.surplus = 0.0 if sensed.others is None else inf
         self.unseen = unseen(h)
         self.put_there = (0.0 if sensed.told else log(self.chances.moved)) - log(h.size + self.unseen)
         self.arrived: set[int] = set()
@@ -98,8 +114,10 @@ class Walker:
         stayed = h.weight + log(1.0 - chances.moved)
         if action is not None:
             yield from self._walk(action, stayed + log(1.0 - astray), 0.0)
-        yield self.stay(stayed, astray, each)
-        if each > 0.0 and stayed + log(each) > self.floor:
+        staying = self.stay(stayed, astray, each)
+        if staying is not None:
+            yield staying
+        if each > 0.0 and stayed + log(each) > self.floor - self.surplus:
             for way in range(h.scheme.count):
                 if way != action:
                     yield from self._walk(way, stayed + log(each), 1.0)
@@ -112,8 +130,8 @@ class Walker:
             found = self._open[way] = probability(way_odds(self.h, self.h.here, self.place, way))
         return found
 
-    def stay(self, before: float, astray: float, each: float) -> Alternative:
-        """It is where it was: told to stay, blocked, failed, or put there."""
+    def stay(self, before: float, astray: float, each: float) -> Alternative | None:
+        """It is where it was: told to stay, blocked, failed, or put there; None if that is below the floor."""
         action, fails = self.sensed.action, self.chances.fails
         self.arrived.add(self.h.here)
         stays = [1.0 - self.open(way) * (1.0 - fails) for way in range(self.h.scheme.count)]
@@ -122,6 +140,8 @@ class Walker:
         failed = 0.0 if action is None else (1.0 - astray) * self.open(action) * fails
         put_here = exp(self.put_there + self.h.weight - before)
         total = given + lost + put_here
+        if before + log(total) <= self.floor - self.surplus:
+            return None
         weight = before + log(total) + self.at(self.h.here)
         parts = lost / total, failed / total, put_here / total
         return Alternative(weight, self.h, NOWHERE, self.h.here, False, *parts)
@@ -130,14 +150,11 @@ class Walker:
         h, p = self.h, self.open(way) * (1.0 - self.chances.fails)
         before += log(p)
         lead = leads(h, h.here, self.place, way)
-        if lead.to != NOWHERE:
+        if lead.to != NOWHERE and max(before, self.h.weight + self.put_there) + log(2.0) > self.floor - self.surplus:
             yield self.along(way, lead, before, astray)
-        back = None if h.scheme.inverse is None else h.scheme.inverse[way]
-        if lead.new > 0.0 and before + log(lead.new) > self.floor:
-            key = h.beyond(self.place, way)
-            weight = before + log(lead.new) + log_predictive(h, self.sensed, key, back, h.here)
-            yield Alternative(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
-        if lead.off > 0.0 and before + log(lead.off) > self.floor:
+        if lead.new > 0.0 and before + log(lead.new) > self.floor - self.surplus:
+            yield self.new(way, before + log(lead.new), astray)
+        if lead.off > 0.0 and before + log(lead.off) > self.floor - self.surplus:
             yield self.off(way, lead, before, astray)
 
     def off(self, way: int, lead: Lead, before: float, astray: float) -> Alternative:
@@ -146,6 +163,13 @@ class Walker:
         back = None if h.scheme.inverse is None else h.scheme.inverse[way]
         weight = before + log(lead.off) + log_predictive(h, self.sensed, None, back, h.here)
         return Alternative(weight, h, way, NOWHERE, False, astray, 0.0, 0.0)
+
+    def new(self, way: int, before: float, astray: float) -> Alternative:
+        """Along a way, to a place never seen that is where the pose says, if it says that."""
+        h = self.h
+        back = None if h.scheme.inverse is None else h.scheme.inverse[way]
+        weight = before + log_predictive(h, self.sensed, h.beyond(self.place, way), back, h.here)
+        return Alternative(weight, h, way, NOWHERE, True, astray, 0.0, 0.0)
 
     def put_elsewhere(self) -> Alternative:
         """Put into a place never seen, without a word."""
@@ -165,12 +189,22 @@ class Walker:
 
     def _moved(self) -> Iterator[Alternative]:
         h, each = self.h, self.h.weight + self.put_there
-        if each + log(max(self.unseen, 1.0)) <= self.floor:
+        if each + log(h.size + self.unseen) <= self.floor - self.surplus:
             return
-        for number in look_alikes(h, self.sensed):
-            if number not in self.arrived:
-                yield Alternative(each + self.at(number), h, NOWHERE, number, False, 0.0, 0.0, 1.0)
+        found = {k: each + self.at(k) for k in look_alikes(h, self.sensed) if k not in self.arrived}
+        if len(found) > CROWD:
+            yield self._crowd(found)
+        else:
+            for number, weight in found.items():
+                yield Alternative(weight, h, NOWHERE, number, False, 0.0, 0.0, 1.0)
         yield self.put_elsewhere()
+
+    def _crowd(self, found: Mapping[int, float]) -> Alternative:
+        """Put into one of many places."""
+        total = log_sum(list(found.values()))
+        crowd = {number: weight - total for number, weight in found.items() if weight > total - FAINT}
+        to = max(crowd, key=crowd.__getitem__)
+        return Alternative(total, self.h, NOWHERE, to, False, 0.0, 0.0, 1.0, crowd)
 
     def at(self, number: int) -> float:
         """log P(sensed | that place)."""
@@ -188,7 +222,7 @@ def unseen(h: Hypothesis) -> float:
 def look_alikes(h: Hypothesis, sensed: Sensed) -> tuple[int, ...]:
     """Places that may look like what is sensed, those first seen last."""
     reading = sensed.sights[0] if sensed.sights else None
-    return (h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(sorted(h.places)))[-LOOK_ALIKES:]
+    return (h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(sorted(h.places)))[-MOST:]
 
 
 def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:
@@ -226,3 +260,49 @@ def _returns(h: Hypothesis, place: Place, way: int) -> Lead:
             if p > sure:
                 best, sure = source, p
     return Lead(best, min(sure, 0.98), (1.0 - min(sure, 0.98)) * h.chances.new, 0.0)
+
+
+def strayed(h: Hypothesis, sensed: Sensed, crowd: Mapping[int, float], *, drop: float) -> Iterator[Alternative]:
+    """The branches of a hypothesis whose map is known, but not where in it the agent is.
+
+    One message over the places goes a step ahead; where few are left they are branches of their own, and so are new
+    places that are entered from the most probable ones.
+    """
+    ahead: dict[int, float] = {}
+    beyond: list[tuple[float, int]] = []
+    for number, weight in crowd.items():
+        for to, p in _ahead(h, number, sensed):
+            if to == NOWHERE:
+                beyond.append((weight + log(p), number))
+            else:
+                ahead[to] = ahead.get(to, 0.0) + p * exp(weight)
+    found = {to: h.weight + log(p) + log_likelihood(h, to, sensed) for to, p in ahead.items() if p > 0.0}
+    if found:
+        total = log_sum(list(found.values()))
+        kept = {to: weight - total for to, weight in found.items() if weight > total - FAINT}
+        if len(kept) > CROWD:
+            yield Alternative(total, h, NOWHERE, max(kept, key=kept.__getitem__), False, 0.0, 0.0, 0.0, kept)
+        else:
+            for to in kept:
+                yield Alternative(found[to], h, NOWHERE, to, False, 0.0, 0.0, 0.0)
+    for weight, number in nlargest(CROWD, beyond):
+        parent = h.fork()
+        parent.crowd, parent.here, parent.weight = None, number, h.weight + weight
+        if sensed.action is not None and weight > -drop:
+            yield Walker(parent, sensed).new(sensed.action, parent.weight, 0.0)
+
+
+def _ahead(h: Hypothesis, number: int, sensed: Sensed) -> Iterator[tuple[int, float]]:
+    """Where a step from a place may have led, if the action given was carried out; `NOWHERE` for a new place."""
+    action, chances = sensed.action, h.chances
+    if action is None:
+        yield number, 1.0
+        return
+    place = h.places[number]
+    walks = probability(way_odds(h, number, place, action)) * (1.0 - chances.fails)
+    lead = leads(h, number, place, action)
+    yield number, 1.0 - walks
+    if lead.to != NOWHERE:
+        yield lead.to, walks * lead.sure
+    if lead.new > 0.0:
+        yield NOWHERE, walks * lead.new

@@ -60,7 +60,9 @@ class _Calm:
         h, action, walker = self.h, self.sensed.action, self.walker
         each = self.astray / h.scheme.count
         if action is None or lead is None or walker.open(action) < 0.5:
-            return walker.stay(self.stayed, self.astray, each)
+            staying = walker.stay(self.stayed, self.astray, each)
+            assert staying is not None  # its floor is below everything
+            return staying
         before = self.stayed + log(1.0 - self.astray) + log(walker.open(action) * (1.0 - self.chances.fails))
         if lead.to != NOWHERE:
             return walker.along(action, lead, before, 0.0)

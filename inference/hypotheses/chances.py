@@ -35,12 +35,14 @@ class Chances:
         misread, right, sight_unit: P(a sight is misread as a certain other label), P(it is read right), and the log
             odds that one reading is worth; a sensor each.
         labels: number of labels of each sensor, one never met included.
+        doors: what so many readings of the other side of a door add, as far as it was worked out.
         fails, astray, moved, elsewhere, undone, new: as the rates are called.
     """
 
     __slots__ = (
         "astray",
         "beside",
+        "doors",
         "elsewhere",
         "fails",
         "labels",
@@ -73,6 +75,7 @@ class Chances:
         self.fails, self.astray, self.moved = mean(FAILS), mean(ASTRAY), mean(MOVED)
         self.elsewhere, self.undone, self.new = mean(ELSEWHERE), mean(UNDONE), mean(NEW)
         error = min(max(mean(SIGHT_MISREAD), SUREST), 0.9)
+        self.doors: dict[float, float] = {}
         self.labels = tuple(labels)
         self.misread = tuple(error / n for n in labels)
         self.right = tuple(1.0 - error + each for each in self.misread)

@@ -61,7 +61,12 @@ def sight_probability(chances: Chances, sensor: int, counts: SightCounts, readin
 
 def label_probability(chances: Chances, sensor: int, counts: SightCounts, label: int) -> float:
     """P(the place has this sight | what was read there), every label alike before."""
-    unit, most = chances.sight_unit[sensor], max(counts.values(), default=0.0)
+    unit = chances.sight_unit[sensor]
+    if len(counts) == 1:
+        ((only, count),) = counts.items()
+        total = 1.0 + (chances.labels[sensor] - 1) * exp(-unit * count)
+        return 1.0 / total if label == only else exp(-unit * count) / total
+    most = max(counts.values(), default=0.0)
     others = max(chances.labels[sensor] - len(counts), 0) * exp(-unit * most)
     total = others + sum(exp(unit * (count - most)) for count in counts.values())
     return exp(unit * (counts.get(label, 0.0) - most)) / total
@@ -80,12 +85,22 @@ def new_sight_probability(h: Hypothesis, sensor: int, reading: Reading) -> float
 
 def way_odds(h: Hypothesis, number: int, place: Place, way: int) -> float:
     """Log odds that a way is open: what was read here, and from the other side of the door."""
-    chances, mine = h.chances, place.ways[way]
-    other = h.neighbour(place, way)
-    odds = (chances.odds if other == NOWHERE else chances.beside) + mine.net * chances.unit
-    if other != NOWHERE and h.scheme.inverse is not None:
-        odds += other_side(h, other, h.scheme.inverse[way], number)
-    return min(max(odds, -chances.limit), chances.limit)
+    return odds_beyond(h, number, place.ways[way].net, way, h.neighbour(place, way))
+
+
+def odds_beyond(h: Hypothesis, number: int, net: float, way: int, other: int) -> float:
+    """Log odds that a way with so many readings is open, that leads to the place `other` if to any."""
+    chances, inverse = h.chances, h.scheme.inverse
+    if other == NOWHERE:
+        odds = chances.odds + net * chances.unit
+    else:
+        odds = chances.beside + net * chances.unit
+        if inverse is not None:
+            back = h.places[other].ways[inverse[way]]
+            if back.net and (not back.walks or back.to == number):
+                odds += _same_door(chances, back.net)
+    limit = chances.limit
+    return limit if odds > limit else -limit if odds < -limit else odds
 
 
 def other_side(h: Hypothesis, other: int, back: int, number: int) -> float:
@@ -96,10 +111,16 @@ def other_side(h: Hypothesis, other: int, back: int, number: int) -> float:
     way = h.places[other].ways[back]
     if not way.net or (way.walks and way.to != number):
         return 0.0
-    chances = h.chances
-    likelihood = exp(min(way.net * chances.unit, 50.0))
-    apart = (1.0 - chances.undone) * (chances.open * likelihood + 1.0 - chances.open)
-    return log((chances.undone * likelihood + apart) / (chances.undone + apart))
+    return _same_door(h.chances, way.net)
+
+
+def _same_door(chances: Chances, net: float) -> float:
+    found = chances.doors.get(net)
+    if found is None:
+        likelihood = exp(min(net * chances.unit, 50.0))
+        apart = (1.0 - chances.undone) * (chances.open * likelihood + 1.0 - chances.open)
+        found = chances.doors[net] = log((chances.undone * likelihood + apart) / (chances.undone + apart))
+    return found
 
 
 def probability(odds: float) -> float:
@@ -110,6 +131,8 @@ def probability(odds: float) -> float:
 def reading_probability(chances: Chances, p_open: float, reading: float) -> float:
     """P(reading of a way | P(open)); a reading between 0 and 1 is a likelihood of being open."""
     as_open = p_open * (1.0 - chances.wrong) + (1.0 - p_open) * chances.wrong
+    if reading == 1.0:
+        return as_open
     return reading * as_open + (1.0 - reading) * (1.0 - as_open)
 
 

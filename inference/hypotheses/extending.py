@@ -6,7 +6,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_probability, probability, sight_probability, way_odds
+from .evidence import label_probability, odds_beyond, probability, sight_probability
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -21,10 +21,14 @@ def begin(h: Hypothesis, sensed: Sensed, time: int) -> None:
 
 def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> None:
     """Carry out `branch` on `h`, which becomes what the branch says."""
-    here, to = h.here, branch.to
-    if not sensed.told:
+    here, to, lost = h.here, branch.to, h.crowd is not None
+    h.weight, h.crowd = branch.weight, branch.crowd
+    if not sensed.told and not lost:
         _count_how(h, branch)
-    if branch.way == NOWHERE and to == here and not sensed.told:
+    if branch.crowd is not None:
+        h.here = to
+        return
+    if branch.way == NOWHERE and to == here and not sensed.told and not lost:
         _bump(h, branch, sensed)
     if to == NOWHERE:
         to = time
@@ -35,7 +39,6 @@ def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> Non
     if branch.way != NOWHERE:
         _walk(h, here, branch.way, to, branch)
     _look(h, to, sensed, time)
-    h.weight = branch.weight
 
 
 def _place_new(h: Hypothesis, number: int, *, frame: int, position: tuple[int, ...]) -> None:
@@ -85,9 +88,12 @@ def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         _count_returns(h, place, index, to)
     net = max(way.net, h.chances.most)
     walked = Way(net, way.open, way.blocked, way.walks + 1, to)
-    h.put(here, with_way(h.places[here], index, walked))
-    _arrive(h, here, index, to)
-    h.put(here, shared(h, here, h.places[here]))
+    if to == here or (here, index) not in h.places[to].into:
+        h.put(here, with_way(h.places[here], index, walked))
+        _arrive(h, here, index, to)
+        h.put(here, shared(h, here, h.places[here]))
+    else:
+        h.put(here, shared(h, here, with_way(h.places[here], index, walked)))
 
 
 def _arrive(h: Hypothesis, here: int, index: int, to: int) -> None:
@@ -197,8 +203,9 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     opened, blocked, wrong, right, beside, shut = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     chances = h.chances
     for index, way in enumerate(place.ways):
-        odds = way_odds(h, number, place, index)
-        known = h.neighbour(place, index) != NOWHERE
+        other = h.neighbour(place, index)
+        known = other != NOWHERE
+        odds = odds_beyond(h, number, way.net, index, other)
         if way.net or odds != (chances.beside if known else chances.odds):
             p = probability(odds)
             half = 0.5 if h.scheme.inverse is not None and known else 1.0
@@ -211,7 +218,7 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     misread, read = 0.0, 0.0
     for sensor, counts in enumerate(place.sights):
         for label, count in counts.items():
-            p = label_probability(h.chances, sensor, counts, label)
+            p = label_probability(chances, sensor, counts, label)
             misread += count * (1.0 - p)
             read += count * p
     share = Share(opened, blocked, wrong, right, misread, read, beside, shut)

@@ -29,16 +29,19 @@ def _may_close(h: Hypothesis, one: Place, other: Place) -> bool:
     return h.scheme.displacements is not None and one.frame == other.frame
 
 
-def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) -> Hypothesis | None:
-    """The hypothesis in which two places are one; None where its log weight is below `floor`."""
+def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) -> Hypothesis | bool:
+    """The hypothesis in which two places are one.
+
+    Where its log weight is below `floor`: whether it was contradicted, so that it is far below.
+    """
     united = Union(h, floor=floor - h.weight - 12.0)
     try:
         united.unite(one, other, period=period)
     except ContradictionError:
-        return None
+        return True
     gain, links = scored(united)
     if h.weight + gain < floor:
-        return None
+        return False
     return _built(united, h.weight + gain, links)
 
 

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from operator import add
 
 from ...model import Periods, reduced
 from .chances import Chances
 from .layered import Layered
 from .rates import BESIDE, OPEN, SIGHT_MISREAD, WAY_MISREAD, RateCounts
-from .records import NOWHERE, Place, Position
+from .records import NOWHERE, Place, Position, Share
 from .scheme import WayScheme
+
+SHARES = (
+    (OPEN, True), (OPEN, False), (WAY_MISREAD, True), (WAY_MISREAD, False), (SIGHT_MISREAD, True),
+    (SIGHT_MISREAD, False), (BESIDE, True), (BESIDE, False),
+)  # fmt: skip
+"""Which rate each part of a share counts for, and whether as true."""
 
 Key = tuple[int, Position]
 Label = tuple[int, int]
@@ -29,6 +36,8 @@ class Hypothesis:
             it is not known beforehand which do.
         periods: of the charts that close on themselves, by frame.
         here: the place the agent is in.
+        crowd: where the agent may be, with log probabilities, if that is open in this map: `here` is the likeliest, and
+            nothing is learned of places; None otherwise.
         weight: log posterior weight.
         digest: the same for maps that are the same, whatever their places are numbered; hardly ever for others.
         size, links: number of places, and of ways between them (both directions are one).
@@ -39,8 +48,8 @@ class Hypothesis:
     """
 
     __slots__ = (
-        "apart", "at", "chances", "counts", "digest", "here", "kinds", "links", "origin", "periods", "places", "scheme",
-        "shown", "size", "touched", "undo", "weight",
+        "apart", "at", "chances", "counts", "crowd", "digest", "here", "kinds", "links", "origin", "periods", "places",
+        "scheme", "shown", "size", "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -57,6 +66,7 @@ class Hypothesis:
         self.size = self.links = self.digest = 0
         self.origin: Hypothesis | None = None
         self.apart = False
+        self.crowd: Mapping[int, float] | None = None
         self.touched: dict[int, None] = {}
         self.chances = Chances(self.counts, [1] * scheme.sensors)
 
@@ -68,7 +78,8 @@ class Hypothesis:
         other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
         other.undo = self.undo.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
-        other.origin, other.touched, other.digest, other.apart = None, {}, self.digest, self.apart
+        other.origin, other.touched, other.digest = None, {}, self.digest
+        other.apart, other.crowd = self.apart, self.crowd
         return other
 
     @property
@@ -98,7 +109,9 @@ class Hypothesis:
         displacements = self.scheme.displacements
         if displacements is None:
             return None
-        return self.canonical(place.frame, [x + d for x, d in zip(place.position, displacements[way], strict=True)])
+        position = tuple(map(add, place.position, displacements[way]))
+        periods = self.periods.get(place.frame) if self.periods else None
+        return place.frame, reduced(position, periods) if periods else position
 
     def canonical(self, frame: int, position: Sequence[int]) -> Key:
         """The one key of a position, which may be many in a chart that closes on itself."""
@@ -125,15 +138,17 @@ class Hypothesis:
             self.size += 1
             if place.position:
                 self.at[place.frame, place.position] = number
+            self._count(place, 1.0)
+            self.digest += digest(place)
         else:
-            self._count(before, -1.0)
-            self.digest -= digest(before)
-        self._count(place, 1.0)
-        self.digest += digest(place)
-        for sensor in range(self.scheme.sensors):
-            was, now = -1 if before is None else before.label(sensor), place.label(sensor)
-            if was != now:
-                self._relabel(sensor, number, was, now)
+            self._recount(before.share, place.share)
+            if before.ways is not place.ways or before.sights is not place.sights:
+                self.digest += digest(place) - digest(before)
+        if before is None or before.sights is not place.sights:
+            for sensor in range(self.scheme.sensors):
+                was, now = -1 if before is None else before.label(sensor), place.label(sensor)
+                if was != now:
+                    self._relabel(sensor, number, was, now)
         self.places[number] = place
         self.touched[number] = None
 
@@ -150,15 +165,16 @@ class Hypothesis:
         self.size -= 1
 
     def _count(self, place: Place, sign: float) -> None:
-        yes, no, share = self.counts.yes, self.counts.no, place.share
-        yes[OPEN] += sign * share.open
-        no[OPEN] += sign * share.blocked
-        yes[WAY_MISREAD] += sign * share.ways_wrong
-        no[WAY_MISREAD] += sign * share.ways_right
-        yes[SIGHT_MISREAD] += sign * share.sights_wrong
-        no[SIGHT_MISREAD] += sign * share.sights_right
-        yes[BESIDE] += sign * share.beside_open
-        no[BESIDE] += sign * share.beside_blocked
+        yes, no = self.counts.yes, self.counts.no
+        for (rate, true), value in zip(SHARES, place.share, strict=True):
+            (yes if true else no)[rate] += sign * value
+
+    def _recount(self, before: Share, after: Share) -> None:
+        if before is after:
+            return
+        yes, no = self.counts.yes, self.counts.no
+        for (rate, true), was, now in zip(SHARES, before, after, strict=True):
+            (yes if true else no)[rate] += now - was
 
     def _relabel(self, sensor: int, number: int, was: int, now: int) -> None:
         if was >= 0:

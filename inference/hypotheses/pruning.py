@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import exp, log
 
 from .hypothesis import Hypothesis
+from .logs import log_add, log_sum
 from .records import NOWHERE, Place
 
 
@@ -16,7 +16,7 @@ def alike(one: Hypothesis, other: Hypothesis) -> bool:
     with poses, positions seen from there are compared, until something differs.
     """
     a, b = one.places[one.here], other.places[other.here]
-    if (one.size, one.digest) != (other.size, other.digest):
+    if (one.size, one.digest) != (other.size, other.digest) or one.crowd is not None or other.crowd is not None:
         return False
     if one.periods.get(a.frame, ()) != other.periods.get(b.frame, ()):
         return False
@@ -82,15 +82,3 @@ def normalised(hypotheses: Sequence[Hypothesis], *, drop: float, most: int) -> t
     for h in kept:
         h.weight -= total
     return kept, total
-
-
-def log_sum(logs: Sequence[float]) -> float:
-    """log Σ exp."""
-    most = max(logs)
-    return most + log(sum(exp(value - most) for value in logs))
-
-
-def log_add(a: float, b: float) -> float:
-    """log(exp(a) + exp(b))."""
-    a, b = max(a, b), min(a, b)
-    return a + log(1.0 + exp(b - a))

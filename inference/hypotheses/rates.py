@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from math import exp, lgamma, log
 
 
@@ -26,20 +26,31 @@ class RatePrior:
 
     def mean(self, yes: float, no: float) -> float:
         """E[rate | counts]."""
+        _, a, b = self.parts[0]
         if len(self.parts) == 1:
-            _, a, b = self.parts[0]
             return (a + yes) / (a + b + yes + no)
-        logs = [log(w) + log_beta_evidence(a, b, yes, no) for w, a, b in self.parts]
-        most = max(logs)
-        weights = [exp(value - most) for value in logs]
-        means = [(a + yes) / (a + b + yes + no) for _, a, b in self.parts]
-        return sum(w * mean for w, mean in zip(weights, means, strict=True)) / sum(weights)
+        first = lgamma(a + yes) + lgamma(b + no) - lgamma(a + b + yes + no) + _part(self.parts[0])
+        total, weighed = 1.0, (a + yes) / (a + b + yes + no)
+        for part in self.parts[1:]:
+            _, a, b = part
+            log_weight = lgamma(a + yes) + lgamma(b + no) - lgamma(a + b + yes + no) + _part(part) - first
+            weight = exp(min(log_weight, 500.0))
+            total += weight
+            weighed += weight * (a + yes) / (a + b + yes + no)
+        return weighed / total
 
     def log_evidence(self, yes: float, no: float) -> float:
         """log ∫ rate^yes (1 - rate)^no P(rate) d rate."""
         logs = [log(w) + log_beta_evidence(a, b, yes, no) for w, a, b in self.parts]
         most = max(logs)
         return most + log(sum(exp(value - most) for value in logs))
+
+
+@cache
+def _part(part: tuple[float, float, float]) -> float:
+    """log w - log B(yes, no) of one part of a mixture."""
+    weight, a, b = part
+    return log(weight) + lgamma(a + b) - lgamma(a) - lgamma(b)
 
 
 def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
@@ -51,7 +62,7 @@ CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.1, 0.5, 20.0))
 
 RATE_PRIORS = (
     _beta("open", 1.0, 1.0, "a way is open"),
-    _beta("sight_misread", 0.5, 20.0, "a sight is read as another"),
+    RatePrior("sight_misread", "a sight is read as another", CALM_OR_NOT),
     _beta("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
     RatePrior("fails", "a move through an open way fails", CALM_OR_NOT),
     RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import exp
 from typing import NamedTuple
 
 from .branches import Lead, leads
@@ -40,6 +41,13 @@ def label_probabilities(h: Hypothesis, number: int, *, sensor: int = 0) -> dict[
     """P(label) of the labels that were read in a place; those never read there share what is missing to one evenly."""
     counts = h.places[number].sights[sensor]
     return {label: label_probability(h.chances, sensor, counts, label) for label in counts}
+
+
+def whereabouts(h: Hypothesis) -> dict[int, float]:
+    """P(place) of where the agent is under one hypothesis: one place, but where that is open in its map."""
+    if h.crowd is None:
+        return {h.here: 1.0}
+    return {number: exp(weight) for number, weight in h.crowd.items()}
 
 
 def rates_of(h: Hypothesis) -> list[RateOf]:

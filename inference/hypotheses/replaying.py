@@ -17,8 +17,11 @@ from .weighing import seating
 MARGIN = 3
 """Steps before and after a visit that are replayed with it."""
 
-SELDOM = 4
-"""Visits from which on a place is not doubted any more."""
+SELDOM = 8
+"""Visits from which on a place is not doubted any more; the times of fewer are all known."""
+
+LARGEST = 64
+"""Places of a fragment that is doubted as a whole."""
 
 
 class History:
@@ -59,7 +62,12 @@ class History:
 
 
 def doubted(h: Hypothesis, number: int, history: History) -> set[int]:
-    """A place that was visited seldom and long ago and does not fit its neighbours, with those like it beside it."""
+    """Places that may never have been: a fragment that was left long ago, or some that do not fit their neighbours."""
+    place = h.places[number]
+    if not _long_ago(h, place, history):
+        return set()
+    if fragment := _fragment(h, number, history):
+        return fragment if number == min(fragment) else set()
     if not _seldom(h, number, history) or not _misfit(h, number):
         return set()
     found, queue = {number}, [number]
@@ -69,6 +77,27 @@ def doubted(h: Hypothesis, number: int, history: History) -> set[int]:
                 found.add(way.to)
                 queue.append(way.to)
     return found if h.here not in found and len(found) < h.size else set()
+
+
+def _fragment(h: Hypothesis, number: int, history: History) -> set[int]:
+    """All places that hang together with one, if the agent's is not among them, and every visit of theirs is known."""
+    found, queue = {number}, [number]
+    for one in queue:
+        place = h.places[one]
+        if not _long_ago(h, place, history) or len(place.recent) >= RECENT or len(found) > LARGEST:
+            return set()
+        ahead = [h.neighbour(place, way) for way in range(h.scheme.count)]
+        for other in (*ahead, *(source for source, _ in place.into)):
+            if other != NOWHERE and other not in found:
+                found.add(other)
+                queue.append(other)
+    return found
+
+
+def _long_ago(h: Hypothesis, place: Place, history: History) -> bool:
+    """Whether its visits are all in the history, and long over."""
+    known = history.start == 0 or place.recent[0] >= history.start + MARGIN
+    return known and place.recent[-1] < history.end - h.size - 2 * MARGIN
 
 
 def without(h: Hypothesis, numbers: Collection[int], history: History, *, floor: float) -> Hypothesis | None:
@@ -174,12 +203,8 @@ def _remove(h: Hypothesis, numbers: Collection[int]) -> None:
 
 
 def _seldom(h: Hypothesis, number: int, history: History) -> bool:
-    recent = h.places[number].recent
-    return (
-        0 < len(recent) < min(SELDOM, RECENT)
-        and recent[0] >= history.start + MARGIN
-        and recent[-1] < history.end - h.size - 2 * MARGIN
-    )
+    place = h.places[number]
+    return len(place.recent) < min(SELDOM, RECENT) and _long_ago(h, place, history)
 
 
 def _misfit(h: Hypothesis, number: int) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import exp, isfinite
@@ -10,6 +12,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from ...model import CogmapError
+from .attempts import Attempt, Tried
 from .hypothesis import Hypothesis, digest
 from .layered import Layered, Shared
 from .lookback import Past
@@ -21,7 +24,6 @@ from .scheme import WayScheme
 from .streams import DAMAGED, Reader, Writer
 
 Arrays = dict[str, NDArray[Any]]
-Tried = tuple[int, int, bool, int, int]
 
 VERSION = 1
 
@@ -32,7 +34,7 @@ class Parts:
 
     hypotheses: list[Hypothesis]
     history: History
-    tried: dict[Tried, int]
+    tried: dict[Attempt, Tried]
     past: tuple[Past, ...]
     change: Change
     doubts: Sequence[int]
@@ -53,6 +55,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         _write_maps(out, h, 1)
         out.whole += [h.here, h.size, h.links, h.apart, *h.kinds]
         out.real += [h.weight, *h.counts.yes, *h.counts.no]
+        out.many((h.crowd or {}).items(), out.count)
         for (one, other), counts in h.undo.items():
             out.whole += [one, other]
             out.real += counts
@@ -60,7 +63,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         out.whole += [step.time, *step.labels]
         out.real.append(step.norm)
     out.many(parts.history, out.sensed)
-    out.many(parts.tried.items(), lambda item: out.whole.extend([*map(int, item[0]), item[1]]))
+    out.many(parts.tried.items(), lambda item: out.whole.extend(map(int, (*item[0], *item[1]))))
     out.many(parts.doubts, out.whole.append)
     header = {
         "version": VERSION,
@@ -79,7 +82,14 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         "change": [parts.change.kind, list(parts.change.places)],
         "length": parts.history.length,
     }
-    return header, out.rows()
+    arrays = out.rows()
+    return {**header, "check": _checksum(header, arrays)}, arrays
+
+
+def _checksum(header: Mapping[str, Any], arrays: Mapping[str, Any]) -> int:
+    """Of all that is written, so that what was changed or cut is found before anything is believed of it."""
+    text = json.dumps({key: value for key, value in header.items() if key != "check"}, sort_keys=True)
+    return zlib.crc32(arrays["real"].tobytes(), zlib.crc32(arrays["whole"].tobytes(), zlib.crc32(text.encode())))
 
 
 def restored(scheme: WayScheme, state: Any) -> Parts:
@@ -98,7 +108,10 @@ def restored(scheme: WayScheme, state: Any) -> Parts:
     if described != _described(scheme):
         raise CogmapError("tracker: the state is of other ways or sensors; give the scheme that it was made with")
     try:
-        return _read(scheme, header, Reader(arrays["whole"], arrays["real"]))
+        source = Reader(arrays["whole"], arrays["real"])
+        if _checksum(header, arrays) != header["check"]:
+            raise ValueError("its numbers are not those that were written")
+        return _read(scheme, header, source)
     except (TypeError, ValueError, KeyError, IndexError, OverflowError) as error:
         raise CogmapError(DAMAGED.format(error)) from error
 
@@ -150,9 +163,9 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
     for time, sensed in source.many(lambda: source.sensed(scheme)):
         sensed.check(scheme)
         history.add(sensed, time)
-    tried: dict[Tried, int] = {}
-    for one, other, period, size, links, again in source.many(lambda: source.numbers(6)):
-        tried[one, other, bool(period), size, links] = again
+    tried: dict[Attempt, Tried] = {}
+    for one, other, period, apart, time, wait, size, links, against in source.many(lambda: source.numbers(9)):
+        tried[one, other, bool(period), apart] = Tried(time, wait, size, links, bool(against))
     doubts = source.row()
     source.end()
     kind, places = header["change"]
@@ -218,6 +231,7 @@ def _read_hypothesis(scheme: WayScheme, entry: Mapping[str, Any], shared: Bases,
     h.apart = bool(apart)
     rates = len(RATE_PRIORS)
     h.weight, *counts = source.reals(1 + 2 * rates)
+    h.crowd = source.counts() or None
     h.counts = RateCounts(counts[:rates], counts[rates:])
     h.periods = {int(frame): tuple(tuple(int(x) for x in row) for row in rows) for frame, rows in entry["periods"]}
     for _ in range(entry["undo"]):
@@ -273,3 +287,7 @@ def _check_index(h: Hypothesis) -> None:
         raise ValueError("its index names places that it has not")
     if sum(1 for _ in h.places) != h.size:
         raise ValueError("its map has not as many places as it says")
+    shown = {(sensor, label, k) for sensor, label in h.shown for k in h.shown.get((sensor, label)) or ()}
+    labels = {(s, label, k) for k in h.places for s in range(h.scheme.sensors) if (label := h.places[k].label(s)) >= 0}
+    if shown != labels:
+        raise ValueError("its index of sights is not that of its places")

@@ -50,10 +50,11 @@ class Writer:
             self.real += way[:3]
             self.whole += way[3:]
         for counts in place.sights:
-            self.many(counts.items(), self._count)
+            self.many(counts.items(), self.count)
         self.real += place.share
 
-    def _count(self, item: tuple[int, float]) -> None:
+    def count(self, item: tuple[int, float]) -> None:
+        """A whole number, and how much of it."""
         self.whole.append(item[0])
         self.real.append(item[1])
 
@@ -68,7 +69,7 @@ class Writer:
             elif reading is None:
                 self.whole.append(-1)
             else:
-                self.many(reading.items(), self._count)
+                self.many(reading.items(), self.count)
 
 
 class Reader:
@@ -124,7 +125,7 @@ class Reader:
         recent = self.row()
         into = frozenset((source, way) for source, way in self.many(lambda: self.numbers(2)))
         ways = [self._way() for _ in range(scheme.count)]
-        sights = tuple(self._counts() for _ in range(scheme.sensors))
+        sights = tuple(self.counts() for _ in range(scheme.sensors))
         return Place(sights, tuple(ways), frame, tuple(position), tuple(recent), into, Share(*self.reals(8)))
 
     def _way(self) -> Way:
@@ -132,7 +133,8 @@ class Reader:
         walks, to = self.numbers(2)
         return Way(net, opened, blocked, walks, to)
 
-    def _counts(self) -> SightCounts:
+    def counts(self) -> SightCounts:
+        """Whole numbers, and how much of each."""
         return dict(self.many(lambda: (self.numbers(1)[0], self.reals(1)[0])))
 
     def sensed(self, scheme: WayScheme) -> tuple[int, Sensed]:

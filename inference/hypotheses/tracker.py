@@ -9,6 +9,7 @@ from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
+from .attempts import NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
 from .chances import Chances
@@ -16,19 +17,21 @@ from .evidence import log_predictive
 from .extending import begin, extend
 from .folding import pairs, union
 from .hypothesis import Hypothesis, settle_alike
+from .logs import log_sum
 from .lookback import BACK, Past, passed_over
 from .options import Change, Checkpoint, TrackerOptions
-from .pruning import log_sum, merged, normalised
+from .pruning import merged, normalised
+from .reading import whereabouts
 from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
-from .storing import Arrays, Parts, Tried, restored, stored
-
-AGAIN = 16
-"""Steps after which a folding that was too improbable is tried again, in a map that has not changed since."""
+from .storing import Arrays, Parts, restored, stored
 
 QUIET = 4
 """Steps without doubt after which what is improbable is let go."""
+
+NEAR = log(100.0)
+"""Hypotheses with a new place in which look-alikes are tried to be united are at most so far below the best one."""
 
 SHARED = 16
 """Steps after which several hypotheses share what they have in common."""
@@ -62,7 +65,8 @@ class Tracker:
         self._settled = -1
         self._doubts: Sequence[int] = ()
         self._doubted = 0
-        self._tried: dict[Tried, int] = {}
+        self._tried: dict[Attempt, Tried] = {}
+        self._overwritten: list[tuple[Attempt, Tried | None]] = []
         self._clear, self._quiet = True, 0
         self._past: tuple[Past, ...] = ()
 
@@ -93,6 +97,9 @@ class Tracker:
         sensed.check(self.scheme)
         if len(labels) != self.scheme.sensors:
             raise CogmapError(f"tracker: labels are {labels}; give how many each of {self.scheme.sensors} sensors has")
+        self._overwritten = []
+        if len(self._tried) > MANY:
+            self._tried = {}
         self.history.add(sensed, self.time)
         self.labels = tuple(n + 1 for n in labels)
         if self.hypotheses:
@@ -107,13 +114,13 @@ class Tracker:
     def certainty(self) -> float:
         """Probability of the hypotheses that agree with the best one on where the agent is."""
         best = self.best
-        recent = best.places[best.here].recent
-        before = recent[-2] if len(recent) > 1 else None
+        before = _before(best)
         total = 0.0
         for h in self.hypotheses:
-            other = h.places[h.here].recent
-            same = h.here == best.here or (other[-2] if len(other) > 1 else None) == before
-            total += exp(h.weight) * same
+            if h.crowd is not None or best.crowd is not None:
+                total += exp(h.weight) * whereabouts(h).get(best.here, 0.0)
+            else:
+                total += exp(h.weight) * (h.here == best.here or _before(h) == before)
         return min(total, 1.0)
 
     # -- going back, and files ----------------------------------------------------------------------------
@@ -138,7 +145,12 @@ class Tracker:
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
         self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
         self._clear, self._quiet, self._past = rest
-        self._tried = {key: again for key, again in tried.items() if again < self.time + AGAIN}
+        for key, before in reversed(self._overwritten if tried is self._tried else ()):
+            if before is None:
+                tried.pop(key, None)
+            else:
+                tried[key] = before
+        self._tried, self._overwritten = tried, []
         self.history.cut(self.time)
         for h, weight in zip(self.hypotheses, checkpoint.weights, strict=True):
             h.weight, h.chances = weight, Chances(h.counts, self.labels, size=h.size)
@@ -208,7 +220,7 @@ class Tracker:
         """What is kept: while nothing is in doubt the best one alone, or else all, with what was passed over before."""
         step = Past(self.time, previous, previous.marks, self.labels, 0.0)
         if self._clear and len(found) > 1:
-            floor = found[0].weight - wide
+            floor = found[0].weight - drop
             again = self._looked_back((*self._past, step), floor, drop, wide)
             found = merged(found, [*again, *(fold for h in again for fold in self._folds(h, floor))])
             self._clear, self._quiet = False, 0
@@ -240,7 +252,7 @@ class Tracker:
 
     def _happened(self, sensed: Sensed, drop: float) -> list[Alternative]:
         """The branches that may survive."""
-        if self.options.calm and len(self.hypotheses) == 1:
+        if self.options.calm and len(self.hypotheses) == 1 and self.hypotheses[0].crowd is None:
             alone = calm_branches(self.hypotheses[0], sensed, drop=drop)
             if alone:
                 return alone
@@ -264,32 +276,49 @@ class Tracker:
         tried = sorted(children, key=lambda h: -h.weight)
         results: list[Hypothesis] = []
         for rank, h in enumerate(tried):
-            if rank < self.options.folded or h.here == self.time:
+            if h.crowd is not None:
+                continue
+            if rank < self.options.folded or (h.here == self.time and h.weight > top - NEAR):
                 results.extend(self._folds(h, max([top, *(r.weight for r in results)]) - drop))
         return results
 
     def _without(self, h: Hypothesis, drop: float) -> Iterator[Hypothesis]:
         """The most probable hypothesis without some place that it may only have imagined; one is looked at a step."""
+        if h.crowd is not None:
+            return
         if self._doubted == 0:
             self._doubts = list(h.places)
             self._doubted = len(self._doubts)
         self._doubted -= 1
         number = self._doubts[self._doubted]
-        if h.places.get(number) is not None and (numbers := doubted(h, number, self.history)):
+        place = h.places.get(number)
+        if place is None or self._tried.get(key := (number, number, False, 0), NEVER).blocks(h, self.time):
+            return
+        if numbers := doubted(h, number, self.history):
             other = without(h, numbers, self.history, floor=h.weight - drop)
             if other is not None:
                 yield other
+            else:
+                before = self._tried.get(key)
+                self._overwritten.append((key, before))
+                self._tried[key] = (before or NEVER).again(h, self.time, contradicted=True)
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
-        """The foldings that are probable enough; what failed is tried again when the map has changed, or later."""
+        """The foldings that are probable enough."""
         for one, other, period in pairs(h):
-            key = (one, other, period, h.size, h.links)
-            if self.time < self._tried.get(key, 0):
+            key = attempt(h, one, other, period=period)
+            if self._tried.get(key, NEVER).blocks(h, self.time):
                 continue
             united = union(h, one, other, period=period, floor=floor)
-            if united is None:
-                self._tried[key] = self.time + AGAIN
-            else:
+            if isinstance(united, Hypothesis):
                 yield united
-        if len(self._tried) > MANY:
-            self._tried = {}
+            else:
+                before = self._tried.get(key)
+                self._overwritten.append((key, before))
+                self._tried[key] = (before or NEVER).again(h, self.time, contradicted=united)
+
+
+def _before(h: Hypothesis) -> int | None:
+    """When the agent was last where it is now, before now."""
+    recent = h.places[h.here].recent
+    return recent[-2] if len(recent) > 1 else None

@@ -180,6 +180,13 @@ class ModelFactor:
                 for row in range(place * store.rows_each, (place + 1) * store.rows_each):
                     store.clear(row)
 
+    def savepoint(self) -> Any:
+        """What `go_back` needs of it besides its stores. Attributes of a class of your own are copied without it."""
+        return None
+
+    def go_back(self, point: Any) -> None:
+        """Be as it was, once its stores are."""
+
     def state(self) -> dict[str, Any]:
         """What a file needs of it besides its stores, as plain JSON values."""
         return {}

@@ -78,6 +78,15 @@ class Sight(Sensor):
         """Any label is as likely as any other in a new place."""
         self.table.resize(places)
 
+    def savepoint(self) -> int:
+        """How many labels there are."""
+        return len(self.labels)
+
+    def go_back(self, point: int) -> None:
+        """Have the first so many labels only; which places show them is looked up anew."""
+        self.labels.cut(point)
+        self._index = SightIndex(self.table, self.context.changes, self.context.visits)
+
     def state(self) -> dict[str, Any]:
         """The labels."""
         return {"labels": [encode(label) for label in self.labels]}

@@ -178,7 +178,8 @@ class Transition(ModelFactor):
             return
         forward, reverse = self.rates.possible
         self.add(next_, previous, action, weight * forward)
-        self.add(previous, next_, self.motions.inverse[action], weight * reverse)
+        if self.motions.inverse[action] >= 0:  # else nobody knows what undoes it
+            self.add(previous, next_, self.motions.inverse[action], weight * reverse)
         if weight > 0.5:
             self.walked.set((previous, action), True)
 
@@ -191,8 +192,7 @@ class Transition(ModelFactor):
         if beyond is None:
             return
         self.add(beyond, place, action, weight * forward)
-        if changed:
-            inverse = self.motions.inverse[action]
+        if changed and (inverse := self.motions.inverse[action]) >= 0:
             self.raise_to(beyond, beyond, inverse, -weight * reverse)
             self.add(place, beyond, inverse, weight * reverse)
 

@@ -109,7 +109,7 @@ class Ways(Sensor):
         ways = self._transitions
         for action, inverse in enumerate(self._motions.inverse):
             neighbour = ways.beyond(place, action)
-            if neighbour is not None and ways.sensed.values[neighbour, inverse] == BLOCKED:
+            if inverse >= 0 and neighbour is not None and ways.sensed.values[neighbour, inverse] == BLOCKED:
                 ways.add(place, place, action, -self._rates.impossible[1])
 
     def _settled(self, place: int, action: int, weight: float, *, is_open: bool) -> bool:
@@ -125,13 +125,13 @@ class Ways(Sensor):
         beyond, inverse = ways.beyond(place, action), self._motions.inverse[action]
         forward, reverse = self._rates.impossible
         ways.add(place, place, action, weight * forward)
-        if before == BLOCKED and beyond is not None:
+        if before == BLOCKED and beyond is not None and inverse >= 0:
             ways.add(beyond, beyond, inverse, weight * reverse)
         if beyond is None:  # nothing to imagine there (yet): the door is forgotten, as in observed growth
             ways.sensed.set((place, action), UNKNOWN)
             return
         forward, reverse = self._rates.imagined
         ways.raise_to(beyond, place, action, weight * forward)
-        if before != OPEN:
+        if before != OPEN and inverse >= 0:  # else nobody knows what leads back
             ways.raise_to(place, beyond, inverse, weight * reverse)
         ways.sensed.set((place, action), OPEN)

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...model import ELSEWHERE, CogmapError
+from .kept import Kept
 from .rows import Rows
-from .transitions import Floats, Ints, likeliest
+from .transitions import Floats, Ints, Transitions, likeliest
 from .view import MapView
+
+CUTS = 64
+"""Cuts of the map that are kept, at most."""
+
+Key = tuple[bytes, bytes, tuple[bool, ...]]
+"""Of a cut: the places that the agent may be in, those that are in it, and what is sensed of the ways."""
 
 
 @dataclass(frozen=True, slots=True)
-class PlaceRows:
-    """What plans read of `n` places.
+class WayRows:
+    """What plans read of the ways of `n` places.
 
     Attributes:
         successors: `[n, K, slots]` where each action may lead to.
@@ -23,9 +32,6 @@ class PlaceRows:
         likely: `[n, K]` where it most probably leads to besides the place itself; see `likeliest`.
         blocked: `[n, K]` P(staying | s, a).
         ways: `[n, N + 1]` nats that visits teach of B_s by their ways.
-        positions: `[n, N + 1]` nats that visits teach of A_p.
-        position: `[n, D]` where each place is; NaN where nobody knows.
-        sights: `[n, N + 1]` nats that visits teach of the sights.
     """
 
     successors: Ints
@@ -33,9 +39,46 @@ class PlaceRows:
     likely: Ints
     blocked: Floats
     ways: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class SightRows:
+    """What plans read of the sights and positions of `n` places.
+
+    Attributes:
+        positions: `[n, N + 1]` nats that visits teach of A_p.
+        position: `[n, D]` where each place is; NaN where nobody knows.
+        sights: `[n, N + 1]` nats that visits teach of the sights.
+    """
+
     positions: Floats
     position: Floats
     sights: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """What a local model has of ways, local numbers throughout; it stays as it is until the ways of the map change.
+
+    Attributes:
+        places: `[R]` places of the map, -1 the last.
+        at: where among them the agent may be.
+        entered: `[R]` whether the agent was ever there.
+        B: P(s' | s, a).
+        successor: `[R, K]` the place each action most probably leads to, or -1.
+        blocked: `[R, K]` P(blocked | s, a).
+        ways: `[R, N + 1]` nats that visits teach of B_s.
+        kept: what others worked out of these alone, to be found again.
+    """
+
+    places: Ints
+    at: Ints
+    entered: NDArray[np.bool_]
+    B: Transitions
+    successor: Ints
+    blocked: Floats
+    ways: Floats
+    kept: Kept
 
 
 class LocalCache:
@@ -44,9 +87,25 @@ class LocalCache:
     Args:
         map_: the map.
         visits: visits, at most, that plans ask the information of: N.
+
+    Attributes:
+        links: how often it has changed where a way most probably leads.
+        found: what a search of the map found last, for the next one to go on from.
     """
 
-    __slots__ = ("_beside", "_map", "_outcomes", "_read", "_sights", "_ways", "visits")
+    __slots__ = (
+        "_beside",
+        "_cuts",
+        "_map",
+        "_outcomes",
+        "_read",
+        "_sights",
+        "_unseen",
+        "_ways",
+        "found",
+        "links",
+        "visits",
+    )
 
     def __init__(self, map_: MapView, visits: int) -> None:
         self.visits = visits
@@ -55,6 +114,10 @@ class LocalCache:
         self._beside: dict[int, list[int]] = {}  # where each place may lead to
         self._read = -1  # of the log of changes
         self._outcomes: list[int] = []
+        self._cuts: dict[Key, Cut] = {}
+        self._unseen: Floats | None = None
+        self.links = 0
+        self.found: Any = None
 
     def check(self, map_: MapView, look_ahead: int) -> None:
         """Raise `CogmapError` unless it is of this map, and tells of enough visits for this look-ahead."""
@@ -69,18 +132,44 @@ class LocalCache:
         ways, _ = map_.changed_places(read, map_.B_s, map_.visits)
         tables = [sensor.table for sensor in map_.sights_sensed]
         sights, self._read = map_.changed_places(read, map_.A_p, *tables)
-        self._ways.forget(ways)
-        if ways is None:
-            self._beside.clear()
-        for place in ways or ():
-            self._beside.pop(place, None)
+        self._forget_ways(ways)
         outcomes = [table.outcomes for table in tables]
-        self._sights.forget(sights if outcomes == self._outcomes else None)
+        if outcomes != self._outcomes:
+            sights, self._unseen = None, None
+        self._sights.forget(sights)
         self._outcomes = outcomes
 
-    def rows(self, places: Ints) -> PlaceRows:
-        """All of these places, and a row of zeros at the end."""
-        return PlaceRows(*self._ways.columns(places), *self._sights.columns(places))
+    def _forget_ways(self, places: Collection[int] | None) -> None:
+        """What is known of the ways of these places, or of all."""
+        if places is None:
+            self._ways.forget()
+            self._beside.clear()
+            self._cuts.clear()
+            self.links += 1
+        elif places:
+            known, last = self._ways.known(places), len(self._map.places)
+            before, gone = self._ways.column(2, known), (known >= last).any()
+            self._ways.forget(places)
+            for place in places:
+                self._beside.pop(place, None)
+            self._cuts.clear()
+            self.links += bool(gone) or not np.array_equal(before, self._ways.column(2, known))
+
+    def ways(self, places: Ints) -> WayRows:
+        """Of these places, and a row of zeros at the end."""
+        return WayRows(*self._ways.columns(places))
+
+    def sights(self, places: Ints) -> SightRows:
+        """Of these places, and a row of zeros at the end."""
+        return SightRows(*self._sights.columns(places))
+
+    def cut(self, key: Key, make: Callable[[], Cut]) -> Cut:
+        """The cut of this key, made anew if the ways of the map have changed since."""
+        cut = self._cuts.pop(key, None) or make()
+        self._cuts[key] = cut  # the last that was asked for is the last
+        if len(self._cuts) > CUTS:
+            del self._cuts[next(iter(self._cuts))]
+        return cut
 
     def within(self, places: Ints, steps: int) -> Ints:
         """Places within so many steps, however improbable, ascending."""
@@ -103,8 +192,10 @@ class LocalCache:
 
     def unseen(self) -> Floats:
         """`[N + 1]` what visits teach of the sights in a place never imagined."""
-        told = (sensor.information_unseen(self.visits) for sensor in self._map.sights_sensed)
-        return sum(told, np.zeros(self.visits + 1))
+        if self._unseen is None:
+            told = (sensor.information_unseen(self.visits) for sensor in self._map.sights_sensed)
+            self._unseen = sum(told, np.zeros(self.visits + 1))
+        return self._unseen
 
     def _new_ways(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         map_, size = self._map, len(self._map.motions)

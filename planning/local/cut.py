@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
-from .cache import LocalCache, PlaceRows
+from .cache import Cut, LocalCache, WayRows
 from .dormant import leave_out_dormant
+from .kept import Kept
 from .model import Floats, Ints, LocalModel
 from .preferences import Preferences
 from .structure import MapHypotheses, Structure
@@ -43,7 +45,7 @@ class Surroundings:
 
     def sensed(self) -> Ints:
         """`[n, K]` where each action most probably leads to from the starts, as sensed now; see `LocalCache.likely`."""
-        rows = self.cache.rows(self.starts)
+        rows = self.cache.ways(self.starts)
         _sense(rows, self.starts, np.arange(len(self.starts)), self.open)
         return rows.likely[:-1]
 
@@ -89,46 +91,54 @@ def local_model(
     apart = Structure.of(structure)
     far = beyond(Surroundings(map_, cache, places, near, preferences, open_, look_ahead, apart))
     within = np.union1d(near, far) if len(far) else near
-    at, local = within.searchsorted(places), np.append(within, ELSEWHERE)
-    q = np.zeros(len(local))
-    q[at] = belief
+    key = places.tobytes(), within.tobytes(), tuple(open_)
+    cut = cache.cut(key, partial(_cut, map_, cache, places, within, open_))
+    q = np.zeros(len(cut.places))
+    q[cut.at] = belief
     A, multiplicity, log_C = _sights(map_, within, preferences)
-    rows = cache.rows(within)
-    _sense(rows, within, at, open_)
-    rows.blocked[:, map_.motions.stay] = 0.0
-    rows.position[-1] = np.nan
-    rows.sights[-1] = cache.unseen()
-    entered = np.zeros(len(local), dtype=np.bool_)
-    entered[:-1] = map_.visited[within]
-    if not entered[:-1].all():
-        leave_out_dormant(map_, within, rows, entered[:-1])
-    B, successor = _transitions(within, rows, map_.motions.stay)
+    seen = cache.sights(within)
+    seen.position[-1] = np.nan
+    seen.sights[-1] = cache.unseen()
     visits = slice(look_ahead + 1)
     return LocalModel(
         motions=map_.motions,
         look_ahead=look_ahead,
-        places=local,
+        places=cut.places,
         belief=q,
         A=A,
         multiplicity=multiplicity,
         log_C=log_C,
-        log_C_place=preferences.log_C_place(local),
-        B=B,
-        blocked=rows.blocked,
+        log_C_place=preferences.log_C_place(cut.places),
+        B=cut.B,
+        blocked=cut.blocked,
         collision_cost=preferences.collision_cost,
         information={
-            "sight": rows.sights[:, visits],
-            "position": rows.positions[:, visits],
-            "transition": rows.ways[:, visits],
+            "sight": seen.sights[:, visits],
+            "position": seen.positions[:, visits],
+            "transition": cut.ways[:, visits],
         },
-        successor=successor,
-        entered=entered,
-        position=rows.position,
+        successor=cut.successor,
+        entered=cut.entered,
+        position=seen.position,
         discount=discount,
         information_weight=information_weight,
         dropped=dropped,
         structure=apart,
+        kept=cut.kept,
     )
+
+
+def _cut(map_: MapView, cache: LocalCache, places: Ints, within: Ints, open_: Sequence[bool]) -> Cut:
+    """What `within` has of ways, those of `places` as they are sensed."""
+    at, rows = within.searchsorted(places), cache.ways(within)
+    entered = np.zeros(len(within) + 1, dtype=np.bool_)
+    entered[:-1] = map_.visited[within]
+    _sense(rows, within, at, open_)
+    rows.blocked[:, map_.motions.stay] = 0.0
+    if not entered[:-1].all():
+        leave_out_dormant(map_, within, rows, entered[:-1])
+    B, successor = _transitions(within, rows, map_.motions.stay)
+    return Cut(np.append(within, ELSEWHERE), at, entered, B, successor, rows.blocked, rows.ways, Kept())
 
 
 def _likeliest_starts(places: Ints, belief: Floats, most: int) -> tuple[Ints, Floats, float]:
@@ -161,7 +171,7 @@ def _sights(map_: MapView, places: Ints, preferences: Preferences) -> tuple[Floa
     return (A, multiplicity, log_C) if rest else (A[:-1], multiplicity[:-1], log_C[:-1])
 
 
-def _sense(rows: PlaceRows, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:
+def _sense(rows: WayRows, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:
     """Let the ways of `sensing` be as they are sensed now: shut, or not the place itself beyond."""
     here, shut = places[sensing], ~np.array(open_, dtype=np.bool_)
     keys, p = rows.successors[sensing], rows.probability[sensing]
@@ -174,7 +184,7 @@ def _sense(rows: PlaceRows, places: Ints, sensing: Ints, open_: Sequence[bool]) 
     rows.likely[sensing], rows.blocked[sensing] = likeliest(keys, p, here, ELSEWHERE)
 
 
-def _transitions(places: Ints, rows: PlaceRows, stay: int) -> tuple[Transitions, Ints]:
+def _transitions(places: Ints, rows: WayRows, stay: int) -> tuple[Transitions, Ints]:
     """B and the likeliest successors over `places` and, last, everywhere never imagined, which leads to itself."""
     size = len(places)
     rows.successors[-1], rows.probability[-1, :, 0] = ELSEWHERE, 1.0

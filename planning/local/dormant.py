@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model import EMPTY, Motions, dirichlet_information
-from .cache import PlaceRows
+from .cache import WayRows
 from .transitions import Floats, Ints
 from .view import MapView
 
@@ -35,12 +35,13 @@ def dormant(blocked: Floats, motions: Motions) -> NDArray[np.bool_]:
     opened[motions.stay] = shut[motions.stay] = 0
     every, looks = int(opened.sum()), int(shut.sum()) + int(opened.sum())
     rate = (every + 1.0) / (looks + 2.0)
-    asleep = (opened + opened[list(motions.inverse)] == 0) & (STRENGTH * rate < RARE * (shut + STRENGTH))
+    back = np.where(np.array(motions.inverse) >= 0, opened[list(motions.inverse)], 0)
+    asleep = (opened + back == 0) & (STRENGTH * rate < RARE * (shut + STRENGTH))
     asleep[motions.stay] = False
     return asleep
 
 
-def leave_out_dormant(map_: MapView, places: Ints, rows: PlaceRows, entered: NDArray[np.bool_]) -> None:
+def leave_out_dormant(map_: MapView, places: Ints, rows: WayRows, entered: NDArray[np.bool_]) -> None:
     """Let the ways of places never entered be shut where the action is dormant, and looks at them teach nothing."""
     ahead, asleep = np.flatnonzero(~entered), dormant(rows.blocked[:-1][entered], map_.motions)
     if not len(ahead) or not asleep.any():

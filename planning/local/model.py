@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...model import CogmapError, Motions
+from .kept import Kept
 from .structure import Structure
 from .transitions import Transitions
 
@@ -48,6 +49,7 @@ class LocalModel:
         information_weight: weight of every information gain beside utility and costs, 0 or more.
         dropped: belief in places that were left out, before `belief` was made to sum to one again.
         structure: hypotheses about the map, side by side; None where there is but one.
+        kept: what was worked out of places, B, blocked, successor and entered alone, for models that share them.
     """
 
     motions: Motions
@@ -69,6 +71,7 @@ class LocalModel:
     information_weight: float = 1.0
     dropped: float = 0.0
     structure: Structure | None = None
+    kept: Kept | None = field(default=None, repr=False, compare=False)
 
     @property
     def utility(self) -> Floats:
@@ -86,6 +89,7 @@ class LocalModel:
         number[places] = np.arange(len(places))
         return replace(
             self,
+            kept=None,
             A=self.A[:, places],
             B=self.B.within(places),
             successor=number[self.successor[places]],

@@ -35,10 +35,15 @@ class Rows:
             if row < len(self._known):
                 self._known[row] = False
 
+    def known(self, rows: Iterable[int]) -> Ints:
+        """Those of the rows that are kept."""
+        many = len(self._known)
+        return np.array([row for row in rows if row < many and self._known[row]], dtype=np.int64)
+
     def column(self, which: int, wanted: Ints) -> NDArray[Any]:
         """The rows of these numbers, copied, of one of the arrays."""
         self._know(wanted)
-        return self._columns[which][wanted]
+        return self._columns[which][wanted] if self._columns else wanted
 
     def columns(self, wanted: Ints) -> list[NDArray[Any]]:
         """The rows of these numbers, copied, of all arrays, each with a row of zeros at the end."""

@@ -62,12 +62,21 @@ class Transitions:
     def _touched(self, belief: Floats, action: Ints) -> Floats:
         """The same for one belief an action, by what holds mass alone."""
         many, size = belief.shape
+        if many == 1:
+            return self._of_one(belief[0], int(action[0]))[None]
         row, place = np.nonzero(belief)
         taken = action[row]
         at = row[:, None] * size + self.successors[place, taken]
         mass = belief[row, place][:, None] * self.probability[place, taken]
         after = np.bincount(at.ravel(), weights=mass.ravel(), minlength=many * size)
         return after.astype(np.float64, copy=False).reshape(many, size)
+
+    def _of_one(self, belief: Floats, action: int) -> Floats:
+        """The same for one belief."""
+        place = belief.nonzero()[0]
+        mass = belief.take(place)[:, None] * self.probability[place, action]
+        after = np.bincount(self.successors[place, action].ravel(), weights=mass.ravel(), minlength=len(belief))
+        return after.astype(np.float64, copy=False)
 
     def used(self, action: Ints) -> tuple[Transitions, Ints]:
         """Those of some actions alone, where most are in no use, and these actions by their new numbers."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +18,9 @@ FAR = 8
 PROMISING = 0.1
 """P(o | s) of a preferred sight from which a place is promising."""
 
+LONG = 24
+"""Steps of a search from which on it is kept, to go on from."""
+
 MORE = 1.1
 """By how much what is further off must be worth more than all that is nearer."""
 
@@ -24,23 +29,94 @@ def far_ways(around: Surroundings) -> Ints:
     """The places on the shortest likely ways to places beyond look-ahead that are worth more than all that is nearer.
 
     Worth something is what was never entered, and what is preferred. Only likely ways count, as they are sensed: what
-    lies behind a shut door is as far off as the way round. Costs what it touches, whatever the size of the map.
+    lies behind a shut door is as far off as the way round. Costs what it touches, whatever the size of the map; on a
+    long way that was found before, what is near.
     """
     map_, preferences = around.map, around.preferences
     if not preferences.known and len(map_.visited_places) >= len(map_.places):
         return around.near[:0]
-    most = _most(around)
-    # nowhere is no place to go on from
-    parent: dict[int, int] = {-1: -1, **{place: place for place in around.starts.tolist()}}
-    frontier, best, steps, ends = around.starts, 0.0, 0, list[int]()
-    while len(frontier) and MORE * best < most and len(ends) < FAR:
-        worth = promise(map_, around.cache, preferences, frontier)
-        if steps > around.look_ahead:
-            ends += frontier[worth > MORE * best][: FAR - len(ends)].tolist()
-        best = max(best, float(worth.max()))
-        ahead = around.cache.likely(frontier) if steps else around.sensed()
-        frontier, steps = _next(frontier, ahead, parent), steps + 1
-    return _traced(parent, ends)
+    search = _Search(around, _most(around))
+    search.go_on(around.look_ahead + 1)
+    before: _Found | None = around.cache.found
+    if before is not None and search.lasts and before.holds(around, search.best):
+        return before.places
+    search.go_on()
+    found = _traced(search.parent, search.ends)
+    long = search.steps > LONG and len(search.ends) > 0
+    around.cache.found = _Found(found, tuple(search.ends), search.best, around) if long else None
+    return found
+
+
+@dataclass(slots=True)
+class _Search:
+    """Breadth first along likely ways, until nothing can be worth more than the best that was met.
+
+    Attributes:
+        around: what is searched.
+        most: what any place may be worth.
+        best: the greatest worth so far.
+        steps: from the start to the places that come next, `frontier`.
+        ends: places beyond look-ahead that are worth more than all before them.
+        parent: the place before each on the way there.
+    """
+
+    around: Surroundings
+    most: float
+    best: float = 0.0
+    steps: int = 0
+    ends: list[int] = field(default_factory=list[int])
+    frontier: Ints = field(init=False)
+    parent: dict[int, int] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.frontier = self.around.starts
+        # nowhere is no place to go on from
+        self.parent = {-1: -1, **{place: place for place in self.frontier.tolist()}}
+
+    @property
+    def lasts(self) -> bool:
+        """Whether something more may be found."""
+        return len(self.frontier) > 0 and MORE * self.best < self.most and len(self.ends) < FAR
+
+    def go_on(self, until: int | None = None) -> None:
+        """Search on, up to so many steps from the start."""
+        around, cache = self.around, self.around.cache
+        while self.lasts and (until is None or self.steps < until):
+            worth = promise(around.map, cache, around.preferences, self.frontier)
+            if self.steps > around.look_ahead:
+                self.ends += self.frontier[worth > MORE * self.best][: FAR - len(self.ends)].tolist()
+            self.best = max(self.best, float(worth.max()))
+            ahead = cache.likely(self.frontier) if self.steps else around.sensed()
+            self.frontier, self.steps = _next(self.frontier, ahead, self.parent), self.steps + 1
+
+
+class _Found:
+    """What a long search found, as long as it would be found again from a place on the way.
+
+    Args:
+        places: on the ways.
+        ends: of the ways.
+        best: the greatest worth of an end.
+        around: of the search.
+    """
+
+    __slots__ = ("_best", "_ends", "_links", "_preferences", "places")
+
+    def __init__(self, places: Ints, ends: tuple[int, ...], best: float, around: Surroundings) -> None:
+        self.places, self._ends, self._best = places, np.array(ends), best
+        self._links, self._preferences = around.cache.links, around.preferences
+
+    def holds(self, around: Surroundings, near: float) -> bool:
+        """Whether the agent is on the way, ways and preferences are the same, and nothing as good is near."""
+        if (around.cache.links, around.preferences) != (self._links, self._preferences) or MORE * near >= self._best:
+            return False
+        worth = promise(around.map, around.cache, around.preferences, self._ends)
+        on = np.isin(around.starts, self.places).all() and len(around.starts) == 1
+        return bool(on and worth.max() >= self._best and self._leads_on(around))
+
+    def _leads_on(self, around: Surroundings) -> bool:
+        """Whether the ways from where the agent is are sensed as the map has them."""
+        return bool((around.sensed() == around.cache.likely(around.starts)).all())
 
 
 def _most(around: Surroundings) -> float:

@@ -69,7 +69,16 @@ class MapGuided(PolicyGenerator):
 
     def make(self, model: LocalModel) -> Policies:
         self.check(model.motions, model.look_ahead)
-        skeleton, starts = _Skeleton.of(model), _starts(model)
+        starts = _starts(model)
+        if model.kept is None or not _calm(model):
+            return self._made(model, starts)
+        key = self, model.look_ahead, model.collision_cost, tuple(starts)
+        if key not in model.kept.policies:
+            model.kept.policies[key] = self._made(model, starts)
+        return model.kept.policies[key]
+
+    def _made(self, model: LocalModel, starts: list[int]) -> Policies:
+        skeleton = _Skeleton.of(model)
         beam = max(1, self._width(model.motions, model.look_ahead) // len(starts))
         paths: list[Path] = []
         cut = 0
@@ -106,6 +115,12 @@ def first_visit_value(model: LocalModel) -> Floats:
         mean = (model.log_C @ model.multiplicity) / model.multiplicity.sum()
         value += np.maximum(model.log_C @ model.A - mean, 0.0)
     return value
+
+
+def _calm(model: LocalModel) -> bool:
+    """Whether nothing is to be had in any place, so that policies depend on ways alone."""
+    nothing = model.structure is None and not model.log_C.any() and not model.log_C_place.any()
+    return nothing and float(first_visit_value(model)[:-1].max()) < LEAST
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from ..local import LocalModel
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+_OF_BELIEFS = ("staying", "visits", "reached", "_so_far", "_visited", "_held", "_belief_held")
 FEW = 64
 """Places up to which it does not pay to leave out those without belief."""
 
@@ -34,6 +35,12 @@ class Rollout:
     action: Ints
     levels: list[tuple[int, int]]
     belief: Floats
+
+    def again(self, model: LocalModel) -> Rollout:
+        """The same beliefs in a model of other sights; what was worked out of the beliefs alone comes along."""
+        new = Rollout(model, self.parent, self.action, self.levels, self.belief)
+        new.__dict__.update({name: value for name, value in self.__dict__.items() if name in _OF_BELIEFS})
+        return new
 
     def expected(self, values: Floats) -> Floats:
         """`[N, ...]` sum_s Q(s) values[s], of `values [R, ...]`."""

@@ -78,6 +78,20 @@ class Lattice(Pose):
         self.table.resize(places)
         self.position_of.resize(places)
 
+    def savepoint(self) -> tuple[int, Any]:
+        """How many positions there are, and the periods that they repeat with."""
+        return len(self.positions), getattr(self, "periods", ())
+
+    def go_back(self, point: tuple[int, Any]) -> None:
+        """Have the first so many positions only, and what lies beside each."""
+        count, self.periods = point
+        self.positions.cut(count)
+        self.places.resize(count)
+        self.beyond.resize(0)
+        self.beyond.resize(count)
+        for index, position in enumerate(self.positions):
+            self._connect(index, cast(Position, position))
+
     def state(self) -> dict[str, Any]:
         """The positions."""
         periods = {"periods": [list(row) for row in self.periods]} if self.periods else {}
