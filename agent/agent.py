@@ -308,7 +308,7 @@ class Agent:
         if self._state.acted:
             raise CogmapError("agent: it has perceived nothing since its last action; call perceive(observation) first")
         plan, state = self.plan, self._state
-        percept, sensors = state.percept, self.map.sensors
+        percept, sensors = state.percept or Percept(), self.map.sensors
         sensed = {name: sensors[name].label(reading) for name, reading in percept.readings.items() if name != "open"}
         record = record_of(
             state.steps - 1,
@@ -489,6 +489,7 @@ class Agent:
             information_weight=settings.information_weight,
             starts=settings.starts,
             cache=self._cache,
+            structure=self._recognition.question,
         )
 
     def _weighted(self, preferences: GivenPreferences) -> Preferences:
