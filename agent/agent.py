@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ from ..model import (
     Slice,
     Whereabouts,
     map_state,
+    release,
     restore_map,
     take_slice,
     window_graph,
@@ -46,9 +47,12 @@ from .settings import Settings
 from .starting import records_of_graph
 from .state import Choice, GivenPreferences, State
 from .trace import StepRecord, record_of
+from .wholeness import IN_STEP, Before, before_step, undo_step
 
 if TYPE_CHECKING:
     import networkx as nx
+
+T = TypeVar("T")
 
 Seed = int | np.random.SeedSequence | None
 
@@ -156,6 +160,7 @@ class Agent:
         self._mapper = Mapper(self.map, self.growth, self._recognition.mirror.ways, settings)
         self._cache = LocalCache(self.map, settings.look_ahead)
         self._plan: Plan | None = None
+        self._torn: str | None = None
         self.planner.check(self.map.motions, settings.look_ahead)
         self._state = State(deque[Slice](maxlen=settings.window + 1))
 
@@ -262,14 +267,20 @@ class Agent:
     def step(self, observation: Mapping[str, Any]) -> int:
         """Take in one observation and answer with the index of the next action: `perceive`, `plan` and `act` in a row.
 
+        It is taken whole or not at all: whatever goes wrong in it, Ctrl-C too, the agent is as it was before.
+
         Raises:
             CogmapError: the observation lacks a key, or a value is none that its sensor could have sensed.
         """
-        self.perceive(observation)
-        return self.act()
+
+        def step() -> int:
+            self.perceive(observation)
+            return self.act()
+
+        return self._whole(step)
 
     def perceive(self, observation: Mapping[str, Any]) -> Belief:
-        """Take in one observation: infer where it is, learn, and let the map grow.
+        """Take in one observation: infer where it is, learn, and let the map grow; whole or not at all, as `step`.
 
         Where another action than the one answered led here, the observation says so: `taken`, by name or index.
 
@@ -277,6 +288,9 @@ class Agent:
             CogmapError: the observation lacks a key, a value is none that its sensor could have sensed, or nothing
                 was done since the last one.
         """
+        return self._whole(lambda: self._perceive(observation))
+
+    def _perceive(self, observation: Mapping[str, Any]) -> Belief:
         state, values = self._state, checked(observation, self.map)
         wakes = not state.steps and self._recognition.followed is not None  # in a map that was given, somewhere
         if wakes or state.told:
@@ -297,7 +311,6 @@ class Agent:
         state.percept, state.acted, state.choice, self._plan = percept, False, None, None
         state.open = self._recognition.open(percept)
         state.steps += 1
-        self.map.growth.tidy()
         return self.belief
 
     @property
@@ -307,6 +320,9 @@ class Agent:
         Raises:
             CogmapError: it has perceived nothing yet.
         """
+        return self._plan or self._whole(self._think)
+
+    def _think(self) -> Plan:
         if self._plan is None:
             self._require_plan()
             choice = self._state.choice
@@ -322,11 +338,14 @@ class Agent:
         return self._plan
 
     def act(self) -> int:
-        """Answer the last observation with the index of an action: the first of the plan's policy.
+        """Answer the last observation with the index of an action: the first of the plan's policy; as `step`.
 
         Raises:
             CogmapError: it has perceived nothing since the last action.
         """
+        return self._whole(self._act)
+
+    def _act(self) -> int:
         if self._state.acted:
             raise CogmapError("agent: it has perceived nothing since its last action; call perceive(observation) first")
         plan, state = self.plan, self._state
@@ -361,6 +380,45 @@ class Agent:
         """
         storage.write(path, *self.state())
 
+    def _check_whole(self) -> None:
+        if self._torn is not None:
+            raise CogmapError(f"agent: it is torn, {self._torn}; load it from a file, or make another")
+
+    def _whole(self, work: Callable[[], T]) -> T:
+        """Do it, or leave everything as it was; what is done within it is part of it."""
+        if self._torn is IN_STEP:
+            return work()
+        self._check_whole()
+        map_, state = self.map, self._state
+        before = before_step(map_, self._recognition, state, self._plan, self.rng, len(self.trace))
+        try:
+            self._torn = IN_STEP
+            result = work()
+            self._torn = None
+            release(map_)
+            return result
+        except BaseException as error:
+            if self._torn is not None:
+                self._go_back(before, error)
+            raise
+
+    def _go_back(self, before: Before, error: BaseException) -> None:
+        """As it was before; a second interrupt in the middle is waited out."""
+        self._torn = f"left in the middle of a step by a {type(error).__name__}"
+        for _ in range(3):
+            try:
+                undo_step(before, self.map, self._recognition)
+                self._state, self._plan, self.rng = before.state, before.plan, before.rng
+                self._cache = LocalCache(self.map, self.settings.look_ahead)
+                del self.trace[before.records :]
+                self._torn = None
+                return
+            except CogmapError as why:
+                self._torn = f"{self._torn}, and cannot go back ({why})"
+                return
+            except KeyboardInterrupt:  # it is raised in the end
+                continue
+
     @classmethod
     def load(
         cls,
@@ -389,7 +447,12 @@ class Agent:
             )
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
-        """Everything that the next steps depend on: a JSON header and arrays (the trace is left out)."""
+        """Everything that the next steps depend on: a JSON header and arrays (the trace is left out).
+
+        Raises:
+            CogmapError: the agent is torn, or a label cannot be written.
+        """
+        self._check_whole()
         map_, arrays = map_state(self.map)
         header = {
             "motions": {"names": self.map.motions.names, "displacements": self.map.motions.displacements},

@@ -151,6 +151,18 @@ class Recognition:
             likelihoods=map_.likelihoods(places, percept),
         )
 
+    # -- going back ----------------------------------------------------------------------------------------
+
+    def savepoint(self) -> tuple[Any, ...]:
+        """What `go_back` needs to undo the next step."""
+        return self.tracker, self.tracker.checkpoint(), self.followed, self.moved, self.mirror.savepoint()
+
+    def go_back(self, point: tuple[Any, ...]) -> None:
+        """Be as it was before that step, wherever it was broken off."""
+        self.tracker, checkpoint, self.followed, self.moved, mirror = point
+        self.tracker.rollback(checkpoint)
+        self.mirror.go_back(mirror)
+
     # -- files ---------------------------------------------------------------------------------------------
 
     def state(self, arrays: Arrays) -> dict[str, Any]:

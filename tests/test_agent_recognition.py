@@ -1,4 +1,4 @@
-"""Places are what they are recognised as: worlds that close on themselves, portals, noise, silent moves, no positions."""
+"""Places are what they are recognised as: worlds that close on themselves, noise, silent moves, no positions."""
 
 from __future__ import annotations
 

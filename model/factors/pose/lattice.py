@@ -119,9 +119,10 @@ class Lattice(Pose):
         """Refuse what are no positions, and so many that a table of them would fill the memory."""
         dimensions = len(self.origin)
         for position in positions:
-            if not _is_position(position, dimensions):
+            numbers = cast(tuple[int, ...], position) if isinstance(position, tuple) else ()
+            if set(map(type, numbers)) != {int} or len(numbers) not in (dimensions, dimensions + 1):
                 raise CogmapError(f"map: {position!r} is no position; save it again")
-            if max(map(abs, cast(Position, position))) >= 2**62:
+            if max(map(abs, numbers)) >= 2**62:
                 raise CogmapError("map: a position is too far away; save it again")
         if len(set(positions)) < len(positions):
             raise CogmapError("map: two positions are the same; save it again")
@@ -278,14 +279,6 @@ class Lattice(Pose):
     def learn(self, place: int, weight: float) -> None:
         """The count of its position gains `weight` times the rate."""
         self.table.add(place, int(self.position_of.values[place]), weight * self.context.rates.likelihood)
-
-
-def _is_position(position: object, dimensions: int) -> bool:
-    """Whether it is one in Z^n, perhaps with the number of a fragment behind."""
-    if not isinstance(position, tuple):
-        return False
-    numbers = cast(tuple[object, ...], position)
-    return set(map(type, numbers)) == {int} and len(numbers) in (dimensions, dimensions + 1)
 
 
 def _motion(ahead: Ahead, poses: Ints, *, moved: bool) -> Floats:
