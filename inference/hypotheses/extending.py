@@ -177,7 +177,7 @@ def _read(h: Hypothesis, way: Way, reading: float) -> Way:
     """One more reading; where the ways that were read open last contradict all that was read before, it has changed."""
     chances = h.chances
     most = max(chances.most, 0.5)
-    net = min(max(way.net + 2.0 * reading - 1.0, -most), most)
+    net = min(max(way.net + _worth(chances, reading), -most), most)
     opened, blocked = way.open + reading, way.blocked + 1.0 - reading
     changed = net * (opened - blocked) < 0.0 and abs(opened - blocked) > 1.0
     h.counts.yes[CHANGED] += changed
@@ -185,6 +185,14 @@ def _read(h: Hypothesis, way: Way, reading: float) -> Way:
     if changed:
         opened, blocked = max(net, 0.0), max(-net, 0.0)
     return Way(net, opened, blocked, way.walks, way.to)
+
+
+def _worth(chances: Chances, reading: float) -> float:
+    """What a reading is worth in readings that are sure: log P(it | open) / P(it | blocked)."""
+    if reading in (0.0, 1.0):
+        return 2.0 * reading - 1.0
+    as_open = reading * (1.0 - chances.wrong) + (1.0 - reading) * chances.wrong
+    return log(as_open / (1.0 - as_open)) / chances.unit
 
 
 def shared(h: Hypothesis, number: int, place: Place) -> Place:
