@@ -63,7 +63,7 @@ class Truth:
         return None if offset is None else map_.place_at(offset)
 
     def right(self, agent: Agent, place: Place, trail: Trail) -> bool:
-        """Whether an agent takes itself to be in the place that stands for `place`, or in one that was visited there."""
+        """Whether an agent takes itself to be in the place that stands for `place`, or was visited there."""
         stands = self.place(agent.map, place)
         return stands == agent.belief.place if stands is not None else trail.room(agent, agent.belief.place) == place
 
