@@ -8,7 +8,7 @@ from .branches import Alternative
 from .chances import Chances
 from .evidence import label_probability, odds_beyond, probability, sight_probability
 from .hypothesis import Hypothesis
-from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
+from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
 from .scheme import Reading, Sensed
 
@@ -79,6 +79,9 @@ def with_way(place: Place, index: int, way: Way) -> Place:
 def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
     place = h.places[here]
     way = place.ways[index]
+    if way.walks:
+        h.counts.yes[RELINKED] += way.to != to
+        h.counts.no[RELINKED] += (way.to == to) / (way.walks * way.walks)
     if way.to not in (NOWHERE, to):
         _unlink(h, here, index, way)
         way = Way(way.net, way.open, way.blocked)
@@ -128,6 +131,10 @@ def _unlink(h: Hypothesis, here: int, index: int, way: Way) -> None:
 def _count_link(h: Hypothesis, place: Place, index: int, to: int, branch: Alternative) -> None:
     h.links += 1
     new = branch.to == NOWHERE
+    if h.scheme.inverse is None:
+        meets = any(by == index for _, by in h.places[to].into)
+        h.counts.yes[MEETING] += meets
+        h.counts.no[MEETING] += not meets
     if h.scheme.displacements is None:
         h.counts.yes[NEW] += new
         h.counts.no[NEW] += not new
