@@ -53,7 +53,7 @@ class Sensing:
         return Sensed(
             sights,
             ways,
-            None if stayed else self._way.get(percept.action),
+            None if stayed or percept.action is None else self._way.get(percept.action),
             certain=percept.taken or percept.outcome == "arrived",
             told=percept.moved,
             others=self._told(percept, place) if any(name in readings for name in self._others) else None,

@@ -119,10 +119,10 @@ class Lattice(Pose):
         """Refuse what are no positions, and so many that a table of them would fill the memory."""
         dimensions = len(self.origin)
         for position in positions:
-            whole = isinstance(position, tuple) and set(map(type, position)) == {int}
-            if not (whole and len(position) in (dimensions, dimensions + 1)):
+            numbers = cast(tuple[int, ...], position) if isinstance(position, tuple) else ()
+            if set(map(type, numbers)) != {int} or len(numbers) not in (dimensions, dimensions + 1):
                 raise CogmapError(f"map: {position!r} is no position; save it again")
-            if max(map(abs, position)) >= 2**62:
+            if max(map(abs, numbers)) >= 2**62:
                 raise CogmapError("map: a position is too far away; save it again")
         if len(set(positions)) < len(positions):
             raise CogmapError("map: two positions are the same; save it again")
