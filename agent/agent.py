@@ -581,6 +581,7 @@ class Agent:
             information_weight=settings.information_weight,
             starts=settings.starts,
             cache=self._cache,
+            structure=self._recognition.question,
         )
 
 

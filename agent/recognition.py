@@ -16,6 +16,7 @@ from .hypotheses import MapHypothesis, compared
 from .knowing import records_of
 from .mirror import Doors, Mirror, passable
 from .sensing import Sensing
+from .structure import OpenQuestion
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -100,6 +101,14 @@ class Recognition:
         """Every hypothesis, the most probable first, beside the one that is followed."""
         hypotheses = self.tracker.hypotheses
         return compared(self._now, hypotheses, self.mirror) if hypotheses else ()
+
+    @property
+    def question(self) -> OpenQuestion | None:
+        """What is worth telling apart; None where nothing is, or new places are left to see, which tell as well."""
+        hypotheses = self.tracker.hypotheses
+        if len(hypotheses) == 1 or not self._map.visited.all():
+            return None
+        return OpenQuestion(hypotheses, self.sensing.ways)
 
     def missed(self) -> None:
         """The map was not taught the last step."""
