@@ -232,8 +232,9 @@ class Agent:
 
     @property
     def graph(self) -> FactorGraph:
-        """The factor graph of the current window."""
-        return window_graph(self.map, self.window)
+        """The factor graph of the current window; while it is open which map is right, with that as a variable."""
+        graph = window_graph(self.map, self.window)
+        return self._recognition.asked(graph, step=self.steps - 1) if self.steps else graph
 
     def prefer(
         self,
