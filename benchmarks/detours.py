@@ -3,10 +3,11 @@
     python benchmarks/detours.py
     python benchmarks/detours.py --worlds donut tolman office --look-ahead 2 6 15 --ways 8 --json detours.json
 
-The agent knows every room (see `known.py`). It is at one of `--ways` random starts, prefers a random room by
-`--weight` nats, and the first door on the shortest way there was shut, where there is another way. Least is the
-shortest way with the door known shut. `never` counts those that have not chosen to stay at the goal after four times
-that and 20 moves.
+The agent was led through every room (see `known.py`). It is at one of `--ways` random starts, prefers a random room by
+`--weight` nats, and the first door on the shortest way there was shut, where there is another way. It has looked at
+that door `--looks` times; with `--met` any door on the way is shut, and met by walking there. The ratio is to the
+shortest way with the door known shut, from where it is met. `never` counts those that have not chosen to stay at the
+goal after four times the way and 20 moves.
 """
 
 from __future__ import annotations
