@@ -11,12 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inference import Belief, Hypothesis, Message, Place, RateOf, Tracker, TrackerOptions, rates_of, tracker_knowing
-from ..model import CognitiveMap, Growth, Percept
+from ..model import CognitiveMap, FactorGraph, Growth, Percept
 from .checks import check_recognition
 from .hypotheses import MapHypothesis, compared
 from .knowing import records_of
 from .mirror import Doors, Mirror, passable
+from .question import with_question
 from .sensing import Sensing
+from .structure import OpenQuestion
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -101,6 +103,23 @@ class Recognition:
         """Every hypothesis, the most probable first, beside the one that is followed."""
         hypotheses = self.tracker.hypotheses
         return compared(self._now, hypotheses, self.mirror) if hypotheses else ()
+
+    @property
+    def question(self) -> OpenQuestion | None:
+        """What is worth telling apart; None where nothing is, or new places are left to see, which tell as well."""
+        hypotheses = self.tracker.hypotheses
+        if len(hypotheses) == 1 or not self._map.visited.all():
+            return None
+        return OpenQuestion(hypotheses, self.sensing.ways)
+
+    def asked(self, graph: FactorGraph, *, step: int) -> FactorGraph:
+        """The graph of the window with the question which hypothesis is right, if that is open."""
+        hypotheses = self.tracker.hypotheses
+        if len(hypotheses) == 1:
+            return graph
+        weights = [exp(h.weight) for h in hypotheses]
+        places = [self.mirror.place(h) for h in hypotheses]
+        return with_question(graph, weights, places, followed=hypotheses.index(self._now), step=step)
 
     def missed(self) -> None:
         """The map was not taught the last step."""

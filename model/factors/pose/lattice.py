@@ -219,6 +219,9 @@ class Lattice(Pose):
         return index
 
     def _connect(self, index: int, position: Position) -> None:
+        """Name what lies beside a position, unless another one stands for it."""
+        if self.periods and len(position) == len(self.origin) and reduced(position, self.periods) != position:
+            return
         for action in range(len(self.motions)):
             there = self.positions.find(self.moved(position, action))
             if there is not None:
