@@ -232,8 +232,9 @@ class Agent:
 
     @property
     def graph(self) -> FactorGraph:
-        """The factor graph of the current window."""
-        return window_graph(self.map, self.window)
+        """The factor graph of the current window; while it is open which map is right, with that as a variable."""
+        graph = window_graph(self.map, self.window)
+        return self._recognition.asked(graph, step=self.steps - 1) if self.steps else graph
 
     def prefer(
         self,
@@ -455,7 +456,7 @@ class Agent:
         self._check_whole()
         map_, arrays = map_state(self.map)
         header = {
-            "motions": {"names": self.map.motions.names, "displacements": self.map.motions.displacements},
+            "motions": _told(self.map.motions),
             "settings": self.settings.to_dict(),
             "parts": self.parts,
             "rng": self.rng.bit_generator.state,
@@ -480,7 +481,7 @@ class Agent:
         """The agent that `state` took apart; see `load`."""
         agent = cls.__new__(cls)
         made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth, planner=planner)
-        motions = dict(zip(header["motions"]["names"], header["motions"]["displacements"], strict=True))
+        motions = _motions(header["motions"])
         saved = Settings.from_dict(header["settings"])
         agent._assemble(motions, *made, settings or saved, None)
         agent.keep = KEEP
@@ -590,3 +591,15 @@ def _generator(seed: Seed) -> np.random.Generator:
         return np.random.default_rng(seed)
     except (TypeError, ValueError) as error:
         raise CogmapError(f"agent: seed is {seed!r}; use a whole number of 0 or more, or None") from error
+
+
+def _told(motions: Motions) -> dict[str, Any]:
+    """Actions as plain JSON values; where they have no displacements, who undoes whom is said instead."""
+    reverse = {} if motions.placed else {"reverse": motions.inverse}
+    return {"names": motions.names, "displacements": motions.displacements, **reverse}
+
+
+def _motions(told: Mapping[str, Any]) -> Motions:
+    if "reverse" in told:
+        return Motions(tuple(told["names"]), (), tuple(told["reverse"]))
+    return Motions.of(dict(zip(told["names"], told["displacements"], strict=True)))

@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inference import Belief, Hypothesis, Message, Place, RateOf, Tracker, TrackerOptions, rates_of, tracker_knowing
-from ..model import CognitiveMap, Growth, Percept
+from ..model import CognitiveMap, FactorGraph, Growth, Percept
+from .checks import check_recognition
 from .hypotheses import MapHypothesis, compared
 from .knowing import records_of
 from .mirror import Doors, Mirror, passable
+from .question import with_question
 from .sensing import Sensing
 from .structure import OpenQuestion
 
@@ -110,6 +112,15 @@ class Recognition:
             return None
         return OpenQuestion(hypotheses, self.sensing.ways)
 
+    def asked(self, graph: FactorGraph, *, step: int) -> FactorGraph:
+        """The graph of the window with the question which hypothesis is right, if that is open."""
+        hypotheses = self.tracker.hypotheses
+        if len(hypotheses) == 1:
+            return graph
+        weights = [exp(h.weight) for h in hypotheses]
+        places = [self.mirror.place(h) for h in hypotheses]
+        return with_question(graph, weights, places, followed=hypotheses.index(self._now), step=step)
+
     def missed(self) -> None:
         """The map was not taught the last step."""
         self.mirror.miss(self._now, self._now.touched)
@@ -183,11 +194,13 @@ class Recognition:
         prefix = "tracker."
         own = {name.removeprefix(prefix): arrays[name] for name in arrays if name.startswith(prefix)}
         self.tracker = Tracker.restored(self.sensing.scheme, self.tracker.options, (state["tracker"], own))
-        places = {int(number): int(place) for number, place in state["places"]}
-        self.followed = None if state["followed"] is None else self.tracker.hypotheses[int(state["followed"])]
+        places: dict[Any, Any] = dict(state["places"])
+        followed, missed = state["followed"], state["missed"]
+        check_recognition(places, missed, followed, state["moved"], self._map, self.tracker.hypotheses)
+        self.followed = None if followed is None else self.tracker.hypotheses[followed]
         if self.followed is not None:
-            self.mirror.restore(self.followed, places, missed=map(int, state["missed"]))
-        self.moved = bool(state["moved"])
+            self.mirror.restore(self.followed, places, missed=missed)
+        self.moved = state["moved"]
 
     @property
     def start(self) -> Message | None:

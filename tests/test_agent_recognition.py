@@ -5,10 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.experiments import Trail, Verdict
 from cogmap.experiments.running import Moment
+from cogmap.inference import infer
 from cogmap.model import NoPose
 from cogmap.worlds import NoisyWorld, load_world, place_of, torus
 
@@ -95,6 +97,26 @@ def test_hypotheses_say_what_they_differ_in_and_are_saved(tmp_path: Path) -> Non
         assert loaded.learned_rates == agent.learned_rates
         observation, *_ = world.step(agent.trace[-1].action)
     assert open_questions
+
+
+def test_the_graph_has_the_open_question_as_a_variable() -> None:
+    world = load_world("3x3_alias")
+    agent = Agent(world.motions, seed=0)
+    observation, _ = world.reset(seed=0)
+    asked = 0
+    for step in range(30):
+        if step == 12:
+            observation = world.displace((0, 2))
+        action = agent.step(observation)
+        if len(agent.hypotheses) > 1:
+            asked += 1
+            posterior, t = infer(agent.graph), agent.steps - 1
+            weights = [each.probability for each in agent.hypotheses]
+            np.testing.assert_allclose(posterior.marginal(f"h{t}"), np.array(weights) / sum(weights), atol=1e-9)
+            here = dict(zip(agent.graph.variable_named(f"here{t}").domain, posterior.marginal(f"here{t}"), strict=True))
+            assert here[agent.belief.place] == pytest.approx(agent.belief.certainty, abs=1e-6)
+        observation, *_ = world.step(action)
+    assert asked
 
 
 def test_the_last_steps_in_a_place_are_those_of_its_room() -> None:

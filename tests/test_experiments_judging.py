@@ -188,3 +188,10 @@ def test_worlds_whose_ways_belong_to_the_place_are_explored() -> None:
     run = walk(geometric(6, degree=3, seed=1), 0, steps=15).run
     assert run.places is not None
     assert 0.0 < (run.known or 0.0) <= 1.0
+
+
+@pytest.mark.parametrize("world", [torus(3, 3), ring(6)], ids=["torus", "ring"])
+def test_places_are_recognised_where_positions_do_not_say_which_is_which(world: Any) -> None:
+    run = walk(world, 0, steps=45).run
+    assert run.places == len(world.chart.places)
+    assert run.certain_but_wrong == 0.0
