@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import DECISIVE, Belief, Rivals, advance, advance_rivals, begin, certain_of, rivals_of
+from ..inference import Belief, RateOf, advance, begin
 from ..model import (
     STEPS,
     CogmapError,
@@ -34,10 +34,12 @@ from ..model import (
 )
 from ..planning import LocalCache, Plan, Planner, Preferences
 from . import storage
+from .hypotheses import MapHypothesis
 from .mapper import Mapper
 from .packing import Arrays, pack, unpacked_state
 from .parts import made_of, parts_of
 from .perceiving import checked, percept_of
+from .recognition import Recognition
 from .settings import Settings
 from .state import Choice, GivenPreferences, State
 from .trace import StepRecord, record_of
@@ -133,12 +135,12 @@ class Agent:
         )
         self.rng = _generator(seed)
         self.trace: list[StepRecord] = []
-        self._mapper = Mapper(self.map, self.growth, settings)
+        self._recognition = Recognition(self.map, self.growth, settings.hypotheses)
+        self._mapper = Mapper(self.map, self.growth, self._recognition.mirror.ways, settings)
         self._cache = LocalCache(self.map, settings.look_ahead)
         self._plan: Plan | None = None
         self.planner.check(self.map.motions, settings.look_ahead)
-        dimensions = len(self.map.motions.displacements[0])
-        self._state = State(Rivals.none(dimensions), deque[Slice](maxlen=settings.window + 1))
+        self._state = State(deque[Slice](maxlen=settings.window + 1))
 
     # -- the public face -----------------------------------------------------------------------------------
 
@@ -170,6 +172,25 @@ class Agent:
         if self._state.belief is None:
             raise CogmapError("agent: it has seen nothing yet; call step(observation) first")
         return self._state.belief
+
+    @property
+    def hypotheses(self) -> tuple[MapHypothesis, ...]:
+        """What it holds possible of the map and of where it is in it, the most probable first; `map` is that one."""
+        return self._recognition.compared()
+
+    @property
+    def learned_rates(self) -> tuple[RateOf, ...]:
+        """What it has learned of how reliable its sensors, its moves and the ways of this world are."""
+        return tuple(self._recognition.rates)
+
+    def steps_in(self, place: int) -> tuple[int, ...]:
+        """The last steps, a handful at most, at which it was in a place of its map, as it believes now.
+
+        Raises:
+            CogmapError: the map has no such place.
+        """
+        self.map.check_place(place)
+        return self._recognition.mirror.steps_in(place)
 
     @property
     def certain(self) -> bool:
@@ -245,13 +266,14 @@ class Agent:
                     "agent: it has not acted on the last observation; call act(), or say what was 'taken'"
                 )
             state.action = values["taken"]
-        state.begun, state.retracted = len(self.map.changes), None
+        state.begun, state.revised = len(self.map.changes), False
         self.map.grow_time(step=state.steps)
         percept = percept_of(values, self.map, action=state.action, open_=state.open, step=state.steps)
+        self._recognition.take_in(percept)
         self._infer(percept)
-        self._remember(percept)
-        self._learn(percept)
-        state.open, state.acted, state.choice, self._plan = percept.passable, False, None, None
+        self._teach(percept)
+        state.percept, state.acted, state.choice, self._plan = percept, False, None, None
+        state.open = self._recognition.open(percept)
         state.steps += 1
         self.map.growth.tidy()
         return self.belief
@@ -286,7 +308,7 @@ class Agent:
         if self._state.acted:
             raise CogmapError("agent: it has perceived nothing since its last action; call perceive(observation) first")
         plan, state = self.plan, self._state
-        percept, sensors = state.recent[-1].percept, self.map.sensors
+        percept, sensors = state.percept, self.map.sensors
         sensed = {name: sensors[name].label(reading) for name, reading in percept.readings.items() if name != "open"}
         record = record_of(
             state.steps - 1,
@@ -296,7 +318,7 @@ class Agent:
             plan,
             self.map.changes.since(state.begun)[0] or (),
             certain=self.certain,
-            retracted=state.retracted,
+            revised=state.revised,
         )
         self.trace.append(record)
         if self._keep is not None and len(self.trace) >= 2 * self._keep:
@@ -350,6 +372,7 @@ class Agent:
             "rng": self.rng.bit_generator.state,
             "map": map_,
             "state": pack(self._state, arrays, "state"),
+            "recognition": self._recognition.state(arrays),
         }
         return header, arrays
 
@@ -373,6 +396,10 @@ class Agent:
         restore_map(agent.map, header["map"], arrays)
         agent.rng.bit_generator.state = header["rng"]
         agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)
+        if "recognition" in header:
+            agent._recognition.restore(header["recognition"], arrays)
+        elif agent._state.belief is not None:
+            agent._recognition.know(agent._state.belief.place, step=agent._state.steps)
         return agent
 
     def __repr__(self) -> str:
@@ -381,46 +408,44 @@ class Agent:
     # -- the parts of a step -------------------------------------------------------------------------------
 
     def _infer(self, percept: Percept) -> None:
+        """Where it is, in the map as it is."""
         state = self._state
-        state.recent.append(self._mapper.moment(state.steps, percept))
         if state.belief is None:
             state.belief = begin(self.map, 0, percept)
             return
-        if percept.action is not None and percept.opened and self.certain:
+        if percept.action is not None and percept.opened and self._located:
             self._mapper.enter(Whereabouts(state.belief.places), percept.action, step=state.steps)
-        support = self.settings.filter.support
-        state.belief = advance(self.map, state.belief.message, percept, support=support)
-        self._doubt(percept)
+        belief = advance(self.map, state.belief.message, percept, support=self.settings.filter.support)
+        sure = belief.message.certainty >= self.settings.certainty
+        state.belief = belief.committed() if sure and not self.map.visited[belief.place] else belief
 
-    def _doubt(self, percept: Percept) -> None:
-        """Weigh the belief against its rivals; commit it to a new place, or take back what it taught."""
-        state, displacement = self._state, self.settings.filter.displacement
-        rivals = advance_rivals(self.map, state.rivals, self.belief, percept, displacement=displacement)
-        if len(rivals):
-            rivals = rivals.kept(rivals.since >= state.recent[0].step)
-            if len(rivals) and rivals.probability(rivals.best) >= DECISIVE:
-                self._change_mind(rivals, percept)
-                return
-            state.belief = replace(self.belief, doubt=rivals.doubt)
-        belief = self.belief
-        if self.certain and not self.map.visited[belief.place]:
-            rivals = rivals.joined(rivals_of(self.map, belief, step=state.steps, visits=state.recent[-1].visits))
-            state.belief = belief.committed()
-        state.rivals = rivals
+    def _teach(self, percept: Percept) -> None:
+        """Teach the map the step, or have it say what the most probable hypothesis says instead."""
+        recognition, state, belief = self._recognition, self._state, self.belief
+        self._mapper.fade()
+        if not recognition.choose(belief, certainty=self.settings.certainty):
+            self._revise(percept)
+            return
+        state.belief = recognition.weighed(belief)
+        self._remember(percept)
+        if belief.message.certainty < self.settings.certainty:
+            recognition.missed()
+            return
+        self._mapper.learn(belief, percept, recognition.doors, step=state.steps)
+        if not recognition.grown(belief.place):
+            self._revise(percept)
 
-    def _change_mind(self, rivals: Rivals, percept: Percept) -> None:
-        """The best of the rivals was right: relive what happened since then where it happened."""
-        state = self._state
-        since, position = int(rivals.since[rivals.best]), tuple(rivals.positions[rivals.best].tolist())
-        moments = [moment for moment in state.recent if moment.step >= since]
-        place, state.recent[-1] = self._mapper.relive(moments, position, step=state.steps)
-        odds = float(rivals.odds[rivals.best])
-        state.belief = certain_of(self.map, place, percept, odds=odds, instead_of=self.belief)
+    def _revise(self, percept: Percept) -> None:
+        """The map becomes what the most probable hypothesis says; the window begins anew."""
+        state, recognition = self._state, self._recognition
+        moved = recognition.follow(step=state.steps)
+        if moved is not None:
+            places = {moved[at]: value for at, value in state.preferences.places.items() if at in moved}
+            state.preferences = replace(state.preferences, places=places)
+        state.revised = moved is not None or self.belief.place != recognition.place
+        state.belief = recognition.believed(percept) if state.revised else recognition.weighed(self.belief)
         state.window.clear()
-        state.pending, state.retracted = 0, since
-        state.rivals = rivals.kept(rivals.since < since)
-        places = {at: value for at, value in state.preferences.places.items() if at in self.map.places}
-        state.preferences = replace(state.preferences, places=places)
+        self._remember(percept)
 
     def _remember(self, percept: Percept) -> None:
         """Add the slice of this step to the window, with the factors as they are now."""
@@ -439,15 +464,10 @@ class Agent:
             )
         )
 
-    def _learn(self, percept: Percept) -> None:
-        state = self._state
-        if not self.certain:
-            state.pending += 1
-            return
-        if state.pending:
-            self._mapper.catch_up(list(state.window), state.pending, step=state.steps)
-            state.pending = 0
-        self._mapper.learn(self.belief, percept, step=state.steps)
+    @property
+    def _located(self) -> bool:
+        """Whether one place holds enough of the belief, if the map is right."""
+        return self.belief.message.certainty >= self.settings.certainty
 
     def _require_plan(self) -> None:
         if not self._state.steps:

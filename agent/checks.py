@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import Belief, Rivals
+from ..inference import Belief
 from ..model import CogmapError, CognitiveMap, Percept, Slice, window_graph
-from .state import Choice, GivenPreferences, Moment, State
+from .state import Choice, GivenPreferences, State
 
 NEARLY = 1e-6
 """How far probabilities may be from adding up to one."""
@@ -24,8 +24,7 @@ def check_state(state: State, map_: CognitiveMap) -> None:
         CogmapError: it is one.
     """
     actions = len(map_.motions)
-    begun = 0 <= state.begun <= len(map_.changes) and (state.retracted is None or 0 <= state.retracted < state.steps)
-    counted = begun and state.steps >= 0 and 0 <= state.pending <= state.steps
+    counted = 0 <= state.begun <= len(map_.changes) and state.steps >= 0
     if not (counted and (state.belief is not None) == (state.steps > 0) == bool(state.window)):
         raise CogmapError("its steps do not go with what it believes")
     if not (_is_action(state.action, actions) and (state.action is not None or not (state.acted and state.steps))):
@@ -34,11 +33,11 @@ def check_state(state: State, map_: CognitiveMap) -> None:
         raise CogmapError("its ways are not one an action")
     if state.belief is not None:
         _check_belief(state.belief, map_)
-    _check_rivals(state.rivals, state, map_)
     _check_preferences(state.preferences, map_)
     if state.choice is not None:
         _check_choice(state.choice, map_)
-    _check_moments(state.recent, state, map_)
+    if state.percept is not None:
+        _check_percept(state.percept, map_)
     _check_window(state.window, state, map_)
 
 
@@ -60,23 +59,6 @@ def _check_belief(belief: Belief, map_: CognitiveMap) -> None:
             raise CogmapError("the belief comes from places that the map does not have")
 
 
-def _check_rivals(rivals: Rivals, state: State, map_: CognitiveMap) -> None:
-    lists = rivals.since, rivals.visits, rivals.odds, rivals.coincidence
-    fits = rivals.positions.ndim == 2 and all(part.ndim == 1 for part in lists)
-    if not fits or {*map(len, lists)} != {len(rivals.positions)}:
-        raise CogmapError("the lists of the rivals do not fit one another")
-    kinds = "".join(part.dtype.kind for part in (rivals.positions, *lists))
-    if not len(rivals.odds):
-        return
-    odds = np.concatenate([rivals.odds, rivals.coincidence])
-    if kinds != "iiiff" or not (np.isfinite(odds) & (odds >= 0.0)).all():
-        raise CogmapError("the rivals are no numbers")
-    fits = rivals.positions.shape[1] == len(map_.motions.displacements[0])
-    fits = fits and _are_below(rivals.since, state.steps) and _are_below(rivals.visits, len(map_.visited_places) + 1)
-    if not fits or int(abs(rivals.positions).max()) >= 2**62:
-        raise CogmapError("the rivals are elsewhere than any place could be")
-
-
 def _check_preferences(preferences: GivenPreferences, map_: CognitiveMap) -> None:
     if any(place not in map_.places for place in preferences.places):
         raise CogmapError("it prefers a place that the map does not have")
@@ -86,18 +68,6 @@ def _check_choice(choice: Choice, map_: CognitiveMap) -> None:
     _check_preferences(choice.preferences, map_)
     if not choice.policy or not all(0 <= action < len(map_.motions) for action in choice.policy):
         raise CogmapError("its last choice is no sequence of actions")
-
-
-def _check_moments(moments: Sequence[Moment], state: State, map_: CognitiveMap) -> None:
-    steps = [moment.step for moment in moments]
-    if not _are_consecutive(steps, state.steps - 1):
-        raise CogmapError("the steps that can be taken back are none of its")
-    for moment in moments:
-        if not 0 <= moment.mark <= len(map_.changes) or moment.visits < 0:
-            raise CogmapError("a step cannot be taken back")
-        _check_percept(moment.percept, map_)
-    if any(moment.percept.action is None for moment in moments if moment.step):
-        raise CogmapError("a step has no action that led to it")
 
 
 def _check_window(window: Sequence[Slice], state: State, map_: CognitiveMap) -> None:

@@ -10,16 +10,16 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import Belief, Message, Rivals
-from ..model import STEPS, CogmapError, CognitiveMap, Percept, Slice, Table, encode, plain
+from ..inference import Belief, Message
+from ..model import CogmapError, CognitiveMap, Percept, Slice, Table, encode, plain
 from .checks import check_state
 from .fitting import checked
-from .state import Choice, GivenPreferences, Moment, State
+from .state import Choice, GivenPreferences, State
 
 Arrays = dict[str, NDArray[Any]]
 
 RECORDS: dict[str, type[Any]] = {
-    kind.__name__: kind for kind in (State, Belief, Message, Rivals, Slice, Table, Percept, Moment, Choice)
+    kind.__name__: kind for kind in (State, Belief, Message, Slice, Table, Percept, Choice)
 } | {"GivenPreferences": GivenPreferences}
 """What is taken apart field by field, by name."""
 
@@ -84,6 +84,6 @@ def unpacked_state(packed: Any, arrays: Mapping[str, NDArray[Any]], map_: Cognit
     state = unpack(packed, arrays)
     if not isinstance(state, State):
         raise CogmapError("there is no state of an agent")
-    state.window, state.recent = deque(state.window, maxlen=window + 1), deque(state.recent, maxlen=STEPS)
+    state.window = deque(state.window, maxlen=window + 1)
     check_state(state, map_)
     return state

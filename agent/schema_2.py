@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import Belief, Message, Rivals
+from ..inference import Belief, Message
 from ..model import Percept, Slice, Table, decode
 from ..planning import TERMS
 from .packing import Arrays, pack
@@ -64,15 +64,12 @@ def _state(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> Sta
     sights = [decode(label) for label in header["sights"]]
     names = header["motions"]["names"]
     slices = [_slice(at, slice_, arrays, sights, names) for at, slice_ in enumerate(header["window"])]
-    dimensions = len(header["motions"]["displacements"][0])
     choice = header.get("choice")  # the first files have none
     return State(
-        rivals=_rivals(header["rivals"], dimensions),
         window=deque(slices),
         steps=header["steps"],
         action=header["action"],
         open=tuple(header["open"]) or None,
-        pending=header["pending"],
         belief=_belief(header["belief"], arrays),
         preferences=_preferences(header["goals"], header["goal_places"]),
         choice=None
@@ -85,12 +82,6 @@ def _preferences(sights: Sequence[Sequence[Any]], places: Sequence[Sequence[Any]
     return GivenPreferences(
         {decode(label): float(value) for label, value in sights}, {int(at): float(value) for at, value in places}
     )
-
-
-def _rivals(header: Mapping[str, Sequence[Any]], dimensions: int) -> Rivals:
-    kinds = {"positions": np.int64, "since": np.int64, "visits": np.int64, "odds": float, "coincidence": float}
-    arrays = {name: np.array(header[name], dtype=kind) for name, kind in kinds.items()}
-    return Rivals(**{**arrays, "positions": arrays["positions"].reshape(-1, dimensions)})
 
 
 def _belief(header: Mapping[str, Any] | None, arrays: Mapping[str, NDArray[Any]]) -> Belief | None:

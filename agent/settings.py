@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..inference import ENGINES, FilterOptions
+from ..inference import ENGINES, FilterOptions, TrackerOptions
 from ..model import CogmapError, Priors, Rates, is_number
 from ..planning import MAX_LOOK_AHEAD
 
@@ -30,6 +30,7 @@ class Settings:
         window: W, time steps of the factor graph that is kept.
         engine: sum-product engine of the window: `numpy` or `gtsam`.
         filter: displacement prior, slip and support of the forward filter (ours).
+        hypotheses: how many hypotheses about the map are kept.
         priors: concentrations before evidence (ours; the paper starts from the shape of its matrices).
         discount: weight of each step of a policy relative to the one before (ours; paper: 1).
         goal_weight: weight of the utility term: how much it exploits (paper: 1, and 2 in the Tolman maze).
@@ -49,6 +50,7 @@ class Settings:
     window: int = 10
     engine: str = "numpy"
     filter: FilterOptions = field(default_factory=FilterOptions)
+    hypotheses: TrackerOptions = field(default_factory=TrackerOptions)
     priors: Priors = field(default_factory=Priors)
     discount: float = 0.95
     goal_weight: float = 1.0
@@ -90,7 +92,12 @@ class Settings:
         return cls(**given)
 
 
-_NESTED: dict[str, type[Any]] = {"rates": Rates, "filter": FilterOptions, "priors": Priors}
+_NESTED: dict[str, type[Any]] = {
+    "rates": Rates,
+    "filter": FilterOptions,
+    "hypotheses": TrackerOptions,
+    "priors": Priors,
+}
 
 _TINY, _LARGE = 1e-300, 1e9
 _MOST = {"look_ahead": MAX_LOOK_AHEAD, "starts": 1_000_000, "window": 100_000}

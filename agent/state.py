@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..inference import Belief, Rivals
-from ..model import STEPS, CogmapError, Percept, Slice
+from ..inference import Belief
+from ..model import CogmapError, Percept, Slice
 from ..planning import Plan
 
 
@@ -51,53 +51,32 @@ class Choice:
         raise CogmapError("agent: its last plan does not come out the same with this version; call step(observation)")
 
 
-@dataclass(frozen=True, slots=True)
-class Moment:
-    """A time step that can be taken back.
-
-    Attributes:
-        step: the time step.
-        mark: of the log of changes, before anything was learned from it.
-        visits: number of visited places then.
-        percept: what it brought.
-    """
-
-    step: int
-    mark: int
-    visits: int
-    percept: Percept
-
-
 @dataclass(slots=True)
 class State:
     """One record of where an agent is in its life.
 
     Attributes:
-        rivals: of its belief.
         window: the last steps as slices; as many as its length allows.
         steps: observations taken in so far.
         acted: whether it has answered the last of them.
         action: what it answered; None before the first.
-        open: for each action whether its way may be open by what the last step sensed; None where nothing was sensed.
-        pending: steps that wait to be learned from.
+        open: for each action whether its way was open at the last step, as far as is known; None before the first.
         belief: after the last observation.
         preferences: what it prefers now.
         choice: its last choice.
-        recent: the steps that can be taken back.
+        percept: what the last step brought; None before the first, and where an early version wrote the file.
         begun: where the log of changes was when the present step began.
-        retracted: the step since which it found at the present one to have been elsewhere; or None.
+        revised: whether it changed its mind at the present step: the map, or where it is in it.
     """
 
-    rivals: Rivals
     window: deque[Slice]
     steps: int = 0
     acted: bool = True
     action: int | None = None
     open: tuple[bool, ...] | None = None
-    pending: int = 0
     belief: Belief | None = None
     preferences: GivenPreferences = field(default_factory=GivenPreferences)
     choice: Choice | None = None
-    recent: deque[Moment] = field(default_factory=lambda: deque[Moment](maxlen=STEPS))
+    percept: Percept | None = None
     begun: int = 0
-    retracted: int | None = None
+    revised: bool = False

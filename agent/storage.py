@@ -20,11 +20,15 @@ from ..model import CogmapError, open_regular, parse_json, write_through
 from .members import Members
 from .parts import MissingPart
 from .schema_2 import from_schema_2
+from .schema_3 import from_schema_3
 
-SCHEMA, OLDEST = 3, 2
+SCHEMA, OLDEST = 4, 2
 """Version of the layout of the file, and the oldest that can be read."""
 
 FORMAT = "cogmap agent"
+
+_UPDATES = {2: from_schema_2, 3: from_schema_3}
+"""What reads earlier versions as if they were written now."""
 
 _BROKEN = (OSError, EOFError, RuntimeError, struct.error, zipfile.BadZipFile, zlib.error)
 """What reading raises where a file is none; deep nesting is a `RuntimeError` too."""
@@ -60,7 +64,7 @@ def reading(path: str | PathLike[str]) -> Generator[tuple[dict[str, Any], Mappin
     """
     with _members(Path(path)) as members, damage(path):
         header = _header(Path(path), members)
-        yield from_schema_2(header, members) if header["schema"] == 2 else (header, members)
+        yield _UPDATES[header["schema"]](header, members) if header["schema"] in _UPDATES else (header, members)
         if unknown := members.unread:
             raise ValueError(f"it has an array {unknown[0][:80]!r} that no agent has")
 

@@ -20,7 +20,7 @@ class StepRecord:
         open: for each action, whether its way was sensed open: true, false, P(open), or None; empty where none was.
         places: Q(s_t), the most probable first.
         certainty: the first of them.
-        doubt: probability that the belief went astray at an earlier step.
+        doubt: probability of the hypotheses in which it is elsewhere.
         certain: whether learning and growth went on.
         moved: P(moved_t).
         dropped: posterior mass left out, at most.
@@ -36,7 +36,7 @@ class StepRecord:
         policies: how many policies were considered.
         action: the action taken.
         sensed: label of what each sensor but that of the ways sensed, by its name.
-        retracted: the step since which it found to have been elsewhere, taking back what it had learned; or None.
+        revised: whether it changed its mind: the map, or where it is in it.
     """
 
     step: int
@@ -59,7 +59,7 @@ class StepRecord:
     terms: tuple[Term, ...]
     policies: int
     action: int
-    retracted: int | None = None
+    revised: bool = False
     sensed: Mapping[str, Hashable] = field(default_factory=dict[str, Hashable])
 
     @property
@@ -77,7 +77,7 @@ def record_of(
     entries: Iterable[Entry],
     *,
     certain: bool,
-    retracted: int | None,
+    revised: bool,
 ) -> StepRecord:
     """The record of a step; `entries` are those of the log of changes since it began."""
     entries = list(entries)
@@ -102,6 +102,6 @@ def record_of(
         terms=plan.expected_free_energy.terms,
         policies=len(plan.policies),
         action=plan.action,
-        retracted=retracted,
+        revised=revised,
         sensed=sensed,
     )

@@ -8,36 +8,56 @@ from .errors import ImpossibleEvidence
 from .exact import ENGINES
 from .filter import advance, begin
 from .free_energy import FreeEnergy, free_energy, free_energy_of, is_likelihood
+from .hypotheses import (
+    NOWHERE,
+    Hypothesis,
+    Place,
+    RateOf,
+    Sensed,
+    Share,
+    Tracker,
+    TrackerOptions,
+    Way,
+    WayScheme,
+    open_probability,
+    rates_of,
+    tracker_knowing,
+)
 from .learning import Fit, fit
 from .message import Belief, FilterOptions, Message
 from .posterior import MostProbable, Posterior
 from .query import infer, k_most_probable, log_product, marginal_map, most_probable
-from .rivals import DECISIVE, Rivals, advance_rivals, certain_of, rivals_of
 from .stream import Stream
 
 __all__ = [
     "APPROXIMATIONS",
-    "DECISIVE",
     "ENGINES",
+    "NOWHERE",
     "Belief",
     "CompiledGraph",
     "FilterOptions",
     "Fit",
     "FreeEnergy",
+    "Hypothesis",
     "ImpossibleEvidence",
     "Loopy",
     "LoopyReport",
     "Message",
     "MostProbable",
+    "Place",
     "Posterior",
-    "Rivals",
+    "RateOf",
     "Sampling",
     "SamplingReport",
+    "Sensed",
+    "Share",
     "Stream",
+    "Tracker",
+    "TrackerOptions",
+    "Way",
+    "WayScheme",
     "advance",
-    "advance_rivals",
     "begin",
-    "certain_of",
     "compile_graph",
     "fit",
     "free_energy",
@@ -48,5 +68,7 @@ __all__ = [
     "log_product",
     "marginal_map",
     "most_probable",
-    "rivals_of",
+    "open_probability",
+    "rates_of",
+    "tracker_knowing",
 ]

@@ -18,7 +18,7 @@ from .errors import ImpossibleEvidence
 from .message import Belief, Message
 
 PRUNED = 1e-8
-"""Odds beside the most probable place from which on another one may matter later (see `rivals`)."""
+"""Odds beside the most probable place from which on another one may matter later."""
 
 FEW = 50
 """Visited places that are looked at one and all."""
@@ -140,7 +140,7 @@ def _displaced(
 ) -> tuple[_Candidates, float]:
     """The visited places where the agent may have been put, and log of the joint mass of those left out, at most.
 
-    Left out are only places of which neither the belief nor its rivals would hear: most have never shown the sight.
+    Left out are only places of which the belief would not hear: most have never shown the sight.
     """
     visited = model.visits.order.values
     found = None if len(visited) <= FEW else model.candidates(percept)

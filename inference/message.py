@@ -107,7 +107,7 @@ class Belief:
         dropped: posterior mass that was left out of the support, at most.
         examined: whether being displaced was examined; if not, all of it would have been dropped.
         pairwise: pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`.
-        doubt: probability that the belief went astray at an earlier step; see `rivals`.
+        doubt: probability of the hypotheses about the map in which the agent is elsewhere than this belief has it.
         likelihoods: `[n, F]` P(reading | s_t) of each sensor that sensed something, all together up to one factor;
             empty in a belief that was loaded.
         pruned: places that were dropped from the support, and their mass beside the kept ones'.
@@ -158,8 +158,8 @@ class Belief:
 
     @property
     def certainty(self) -> float:
-        """Q of the most probable place."""
-        return self.message.certainty
+        """Probability of the most probable place, as far as the hypotheses about the map agree."""
+        return self.message.certainty * (1.0 - self.doubt)
 
     def committed(self) -> Belief:
         """The belief with the most probable place alone in its support; what the others held is dropped.

@@ -227,6 +227,21 @@ class SparseDirichlet:
             self._set(row, slot, key, self._prior.item(row, slot), after)
         return after - before
 
+    def unite(self, row: int, old: int, new: int) -> None:
+        """Give outcome `new` of `row` the prior and the evidence that `old` has besides, which has none any more."""
+        one, other = self._slot(row, old), self._slot(row, new)
+        prior = self._prior.item(row, one) + self._prior.item(row, other)
+        evidence = self._evidence.item(row, one) + self._evidence.item(row, other)
+        self._set(row, other, new, prior, evidence)
+        self._set(row, one, EMPTY, 0.0, 0.0)
+
+    def clear(self, row: int, keys: Sequence[int] = (), prior: float = 0.0) -> None:
+        """Take everything away from `row` but these outcomes, which have this prior and no evidence."""
+        for slot in range(self._keys.shape[1]):
+            kept = slot < len(keys)
+            self._set(row, slot, self._keys.item(row, slot), self._prior.item(row, slot), 0.0)
+            self._set(row, slot, keys[slot] if kept else EMPTY, prior if kept else 0.0, 0.0)
+
     def evidence(self, row: int, key: int) -> float:
         """Evidence for `key` in `row`, prior left out."""
         keys = self._keys[row].tolist()

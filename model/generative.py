@@ -154,7 +154,8 @@ class GenerativeModel:
         place = self._size
         self.changes.append(Change(self, place, False, True))  # first, so that what is half done can be undone
         self.put(place, True)
-        self._log(step, "place", place, position, source, action)
+        shown = position if position is None or len(position) == len(self.motions.displacements[0]) else None
+        self._log(step, "place", place, shown, source, action)
         if position is not None:
             self._settle(place, position, step)
         elif source is not None and action is not None:
@@ -182,6 +183,12 @@ class GenerativeModel:
         for action, neighbour in self.pose.neighbours(place):
             self.transitions.link(place, action, neighbour)
             self.transitions.link(neighbour, self.motions.inverse[action], place)
+
+    def unsensed_ways(self) -> Ways:
+        """What teaches the transitions which ways are open, where no sensor of the model does."""
+        ways = Ways()
+        ways.join(self._context, self.transitions)
+        return ways
 
     def mark_visited(self, place: int) -> None:
         """Note that the agent was in `place`."""
@@ -285,6 +292,24 @@ class GenerativeModel:
                     return None, cursor
                 changed.update(of)
         return (None if entries is None else changed), cursor
+
+    def blank(self, place: int) -> None:
+        """Know nothing of a place any more but that it exists, and where."""
+        for factor in self.factors:
+            if factor is not self.pose:
+                factor.blank(place)
+
+    def clear(self, *, step: int) -> None:
+        """Take all places away; labels and positions that were met stay in their domains."""
+        before = self._size
+        while len(self.visits.order):
+            self.visits.forget()
+        for place in reversed(range(before)):
+            self.blank(place)
+            self.pose.blank(place)
+            self.changes.append(Change(self, place, True, False))
+            self.put(place, False)
+        self._log(step, "retract", before)
 
     def take_back(self, mark: int, *, step: int) -> None:
         """Undo everything since `mark`; labels and positions that were met stay in their domains.

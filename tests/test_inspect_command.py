@@ -74,7 +74,7 @@ def test_one_place(agent: Agent) -> None:
     for part in ("visited (the 9th place)", str(agent.map.position(place)), "ways out", "ways here", "A_o:"):
         assert part in shown
     facts = json.loads(Path("p.json").read_text())["place"]
-    assert facts["belief"] == agent.belief.certainty
+    assert facts["belief"] == agent.belief.places[place]
     assert [way["action"] for way in facts["ways"]] == list(GRID)
     assert all(row["next"] == place for row in facts["reached_from"])
     imagined = int(np.flatnonzero(~agent.map.visited)[0])

@@ -75,7 +75,7 @@ def test_places_that_were_taken_back_are_told() -> None:
         action = agent.step(observation)
         frames.add(agent)
         observation = world.displace([(1, 2), (3, 0)][step // 6 % 2]) if step % 6 == 5 else world.step(action)[0]
-    assert any(record.retracted is not None for record in agent.trace)
+    assert any(record.revised for record in agent.trace)
     for frame, record in zip(frames.frames, agent.trace, strict=True):
         gone = sum(event.index for event in record.grown if event.kind == "retract")
         assert (f"{gone} taken back" in frame.news) == (gone > 0)

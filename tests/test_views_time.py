@@ -43,9 +43,9 @@ def test_surprise_is_the_evidence_and_the_parts_of_free_energy_add_up_to_it() ->
 @pytest.mark.parametrize("draw", [plot_free_energy, plot_certainty, plot_surprise])
 def test_steps_at_which_it_was_moved_or_changed_its_mind_are_marked(draw) -> None:  # type: ignore[no-untyped-def]
     trace = list(split().agent.trace)
-    trace[20] = replace(trace[20], retracted=15)
+    trace[20] = replace(trace[20], revised=True)
     marks = {part.get_label(): list(part.get_xdata()) for part in draw(trace).lines if part.get_linestyle() == "None"}  # type: ignore[arg-type]
-    assert marks == {"moved": [trace[-1].step], "retracted": [trace[20].step]}
+    assert marks == {"moved": [trace[-1].step], "revised": [trace[20].step]}
     quiet = draw(trace[:10])
     assert not [part for part in quiet.lines if part.get_linestyle() == "None"]
 

@@ -193,7 +193,7 @@ def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
         "seen": {sensor: encode(label) for sensor, label in record.sensed.items()},
         **({"open": [_way(is_open) for is_open in record.open]} if record.open else {}),
         "grown": [[event.kind, event.index, event.source, event.action] for event in grown],
-        "retracted": record.retracted,
+        "revised": record.revised,
         "belief": places,
         "rest": round(max(0.0, 1.0 - sum(q for _, q in places)), DIGITS),
         "certain": record.certain,

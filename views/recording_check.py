@@ -76,7 +76,7 @@ def _frame(data: dict[str, Any], frame: dict[str, Any], places: int) -> Shape:
         **{name: shape for name, shape in optional.items() if name in frame},
         "seen": dict.fromkeys(frame["seen"], _label),
         "grown": [(_text, _any, _any, _any)],
-        "retracted": _or_none(_whole),
+        **({"retracted": _or_none(_whole)} if "retracted" in frame else {"revised": _flag}),  # the first as earlier
         "certain": _flag,
         "belief": ((place, _number), ..., (place, _number)),
         "map": {name: shape for name, shape in of_map.items() if name in delta},

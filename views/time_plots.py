@@ -150,8 +150,8 @@ def _mark_events(ax: Axes, trace: Trace, *, columns: int = 3) -> None:
     """Lines where the agent noticed that it had been moved, and where it took back what it had learned; the legend."""
     theme = theme_of(ax)
     moved = [record.step for record in trace if record.moved >= MOVED]
-    retracted = [record.step for record in trace if record.retracted is not None]
-    for steps, name, sign, style in ((moved, "moved", "v", (0, (4, 2))), (retracted, "retracted", "X", (0, (1, 1)))):
+    revised = [record.step for record in trace if record.revised]
+    for steps, name, sign, style in ((moved, "moved", "v", (0, (4, 2))), (revised, "revised", "X", (0, (1, 1)))):
         for step in steps:
             ax.axvline(step, color=theme.shade(0.6), linewidth=0.9, linestyle=style, zorder=0.6)
         if steps:

@@ -2,9 +2,10 @@
 
 from .branches import Lead
 from .hypothesis import Hypothesis
+from .knowing import tracker_knowing
 from .options import Change, Checkpoint, TrackerOptions
 from .reading import RateOf, label_probabilities, open_probability, rates_of, where_to, whereabouts
-from .records import NOWHERE, Place, Way
+from .records import NOWHERE, Place, Share, Way
 from .scheme import Sensed, WayScheme
 from .tracker import Tracker
 
@@ -17,6 +18,7 @@ __all__ = [
     "Place",
     "RateOf",
     "Sensed",
+    "Share",
     "Tracker",
     "TrackerOptions",
     "Way",
@@ -24,6 +26,7 @@ __all__ = [
     "label_probabilities",
     "open_probability",
     "rates_of",
+    "tracker_knowing",
     "where_to",
     "whereabouts",
 ]

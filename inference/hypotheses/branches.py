@@ -20,10 +20,6 @@ CROWD = 8
 MOST = 4096
 """Places into which a silent move is thought of at most, the last ones first seen."""
 
-RELINKED = 0.02
-"""P(a way that was walked once leads elsewhere after all, since that walk was another); falls with walks squared."""
-
-
 FAINT = 18.0
 """Nats below which a place of a crowd is let go."""
 
@@ -233,7 +229,7 @@ def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:
     chances, known = h.chances, place.ways[way]
     off = 1.0 / (h.size + 1.0)
     if known.walks:
-        doubt = RELINKED / (known.walks * known.walks)
+        doubt = chances.relinked / (known.walks * known.walks)
         return Lead(known.to, 1.0 - doubt, 0.0, doubt * off)
     if known.to != NOWHERE:
         return Lead(known.to, chances.undone, 0.0, (1.0 - chances.undone) * off)

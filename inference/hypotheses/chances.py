@@ -14,6 +14,7 @@ from .rates import (
     MOVED,
     NEW,
     OPEN,
+    RELINKED,
     SIGHT_MISREAD,
     UNDONE,
     WAY_MISREAD,
@@ -36,7 +37,7 @@ class Chances:
             odds that one reading is worth; a sensor each.
         labels: number of labels of each sensor, one never met included.
         doors: what so many readings of the other side of a door add, as far as it was worked out.
-        fails, astray, moved, elsewhere, undone, new: as the rates are called.
+        fails, astray, moved, elsewhere, undone, new, relinked: as the rates are called.
     """
 
     __slots__ = (
@@ -53,6 +54,7 @@ class Chances:
         "new",
         "odds",
         "open",
+        "relinked",
         "right",
         "sight_unit",
         "undone",
@@ -74,6 +76,7 @@ class Chances:
         self.most = self.limit / self.unit
         self.fails, self.astray, self.moved = mean(FAILS), mean(ASTRAY), mean(MOVED)
         self.elsewhere, self.undone, self.new = mean(ELSEWHERE), mean(UNDONE), mean(NEW)
+        self.relinked = mean(RELINKED)
         error = min(max(mean(SIGHT_MISREAD), SUREST), 0.9)
         self.doors: dict[float, float] = {}
         self.labels = tuple(labels)

@@ -8,7 +8,7 @@ from .branches import Alternative
 from .chances import Chances
 from .evidence import label_probability, odds_beyond, probability, sight_probability
 from .hypothesis import Hypothesis
-from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MOVED, NEW, UNDONE
+from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
 from .scheme import Reading, Sensed
 
@@ -79,6 +79,9 @@ def with_way(place: Place, index: int, way: Way) -> Place:
 def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
     place = h.places[here]
     way = place.ways[index]
+    if way.walks:
+        h.counts.yes[RELINKED] += way.to != to
+        h.counts.no[RELINKED] += (way.to == to) / (way.walks * way.walks)
     if way.to not in (NOWHERE, to):
         _unlink(h, here, index, way)
         way = Way(way.net, way.open, way.blocked)
@@ -128,6 +131,10 @@ def _unlink(h: Hypothesis, here: int, index: int, way: Way) -> None:
 def _count_link(h: Hypothesis, place: Place, index: int, to: int, branch: Alternative) -> None:
     h.links += 1
     new = branch.to == NOWHERE
+    if h.scheme.inverse is None:
+        meets = any(by == index for _, by in h.places[to].into)
+        h.counts.yes[MEETING] += meets
+        h.counts.no[MEETING] += not meets
     if h.scheme.displacements is None:
         h.counts.yes[NEW] += new
         h.counts.no[NEW] += not new
@@ -177,7 +184,7 @@ def _read(h: Hypothesis, way: Way, reading: float) -> Way:
     """One more reading; where the ways that were read open last contradict all that was read before, it has changed."""
     chances = h.chances
     most = max(chances.most, 0.5)
-    net = min(max(way.net + 2.0 * reading - 1.0, -most), most)
+    net = min(max(way.net + _worth(chances, reading), -most), most)
     opened, blocked = way.open + reading, way.blocked + 1.0 - reading
     changed = net * (opened - blocked) < 0.0 and abs(opened - blocked) > 1.0
     h.counts.yes[CHANGED] += changed
@@ -185,6 +192,14 @@ def _read(h: Hypothesis, way: Way, reading: float) -> Way:
     if changed:
         opened, blocked = max(net, 0.0), max(-net, 0.0)
     return Way(net, opened, blocked, way.walks, way.to)
+
+
+def _worth(chances: Chances, reading: float) -> float:
+    """What a reading is worth in readings that are sure: log P(it | open) / P(it | blocked)."""
+    if reading in (0.0, 1.0):
+        return 2.0 * reading - 1.0
+    as_open = reading * (1.0 - chances.wrong) + (1.0 - reading) * chances.wrong
+    return log(as_open / (1.0 - as_open)) / chances.unit
 
 
 def shared(h: Hypothesis, number: int, place: Place) -> Place:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from .extending import shared
 from .hypothesis import Hypothesis
-from .rates import ASTRAY, ELSEWHERE, MOVED, NEW, UNDONE
+from .rates import ASTRAY, ELSEWHERE, MEETING, MOVED, NEW, UNDONE
 from .records import NOWHERE, Place, Way
 from .uniting import ContradictionError, Union
 from .weighing import Links, scored
@@ -70,6 +70,9 @@ def _count(united: Union, h: Hypothesis, more: Links) -> None:
     counts.yes[ASTRAY] += united.astray
     counts.no[ASTRAY] = max(counts.no[ASTRAY] - united.astray, 0.0)
     counts.no[UNDONE] = max(counts.no[UNDONE] + more.crooked, 0.0)
+    if h.scheme.inverse is None:
+        counts.yes[MEETING] = max(counts.yes[MEETING] + more.meeting, 0.0)
+        counts.no[MEETING] = max(counts.no[MEETING] + more.ways - more.meeting, 0.0)
     if h.scheme.displacements is None:
         counts.yes[NEW] = max(counts.yes[NEW] - fewer, 0.0)
         counts.no[NEW] = float(max(h.links - h.size + 1, 0))

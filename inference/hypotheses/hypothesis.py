@@ -42,7 +42,7 @@ class Hypothesis:
         digest: the same for maps that are the same, whatever their places are numbered; hardly ever for others.
         size, links: number of places, and of ways between them (both directions are one).
         chances: the rates expected at this step.
-        origin: while a step is taken in, the hypothesis that this one only extends.
+        origin: the hypothesis before the last step, if this one only extends it.
         apart: it says of some place that it is not where the pose says; that may be all that it differs in.
         touched: numbers of the records changed since it was forked.
     """

@@ -57,8 +57,8 @@ def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
     return RatePrior(name, meaning, ((1.0, yes, no),))
 
 
-CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.1, 0.5, 20.0))
-"""Moves hardly ever go wrong, or else they do often enough."""
+CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 0.5, 2.0))
+"""It hardly ever happens, or else often enough, or else very often."""
 
 RATE_PRIORS = (
     _beta("open", 1.0, 1.0, "a way is open"),
@@ -72,12 +72,15 @@ RATE_PRIORS = (
     _beta("changed", 0.5, 500.0, "a way opens or closes between two looks"),
     _beta("beside", 1.0, 1.0, "a way between places found beside each other is open"),
     _beta("new", 1.0, 1.0, "a way that was never walked leads to a place never seen (without poses)"),
+    _beta(
+        "relinked", 0.5, 24.5, "a way that was walked once leads elsewhere after all; by walks squared less for more"
+    ),
+    _beta("meeting", 0.5, 9.5, "one action leads from two places into one (where it is not known what undoes what)"),
 )
 """Every rate, in the order of `RateCounts`."""
 
-OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE, UNDONE, CHANGED, BESIDE, NEW = range(
-    len(RATE_PRIORS)
-)
+OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE = range(7)
+UNDONE, CHANGED, BESIDE, NEW, RELINKED, MEETING = range(7, len(RATE_PRIORS))
 
 CONCENTRATIONS = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
 """Concentrations of the Chinese restaurant process that are weighed against each other, evenly before any place."""

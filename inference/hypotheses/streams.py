@@ -62,7 +62,7 @@ class Writer:
         """One percept, and its time."""
         time, sensed = item
         self.whole += [time, -1 if sensed.action is None else sensed.action, sensed.certain, sensed.told]
-        self.real += [float("nan") if way is None else way for way in sensed.ways]
+        self.real += [-1.0 if way is None else way for way in sensed.ways]
         for reading in sensed.sights:
             if isinstance(reading, int):
                 self.whole += [-2, reading]
@@ -140,7 +140,7 @@ class Reader:
     def sensed(self, scheme: WayScheme) -> tuple[int, Sensed]:
         """One percept, and its time."""
         time, action, certain, told = self.numbers(4)
-        ways = tuple(None if way != way else way for way in self.reals(scheme.count))
+        ways = tuple(None if way < 0.0 else way for way in self.reals(scheme.count))
         sights = tuple(self._reading() for _ in range(scheme.sensors))
         return time, Sensed(sights, ways, None if action < 0 else action, bool(certain), bool(told))
 

@@ -107,7 +107,7 @@ class Tracker:
         else:
             self.hypotheses = [self._first(sensed)]
         for h in self.hypotheses:
-            h.chances, h.origin = Chances(h.counts, self.labels, size=h.size), None
+            h.chances = Chances(h.counts, self.labels, size=h.size)
         self.time += 1
         return self.evidence
 
@@ -197,6 +197,7 @@ class Tracker:
         previous, wide = self.hypotheses[0], -log(self.options.least)
         drop = min(-log(self.options.doubt), wide) if self._clear else wide
         for h in self.hypotheses:
+            h.origin = None  # what went before is not kept
             if h.chances.labels != self.labels:
                 h.chances = Chances(h.counts, self.labels, size=h.size)
         happened = self._happened(sensed, drop)

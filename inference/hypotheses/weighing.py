@@ -8,12 +8,9 @@ from typing import NamedTuple
 
 from .chances import Chances
 from .hypothesis import Hypothesis
-from .rates import ELSEWHERE, NEW, RATE_PRIORS, UNDONE, crp_evidence
+from .rates import ELSEWHERE, MEETING, NEW, RATE_PRIORS, UNDONE, crp_evidence
 from .records import NOWHERE
 from .uniting import Union
-
-INJECTIVE = log(0.05)
-"""Log prior odds of one more pair of places that one action leads from into the same place."""
 
 FACTOR = 0.6
 """Share of the places, on average, among which a loop that closes had to choose while the map grew."""
@@ -36,7 +33,9 @@ def scored(united: Union) -> tuple[float, Links]:
     gain = united.sights - united.cost + _seating_gain(united)
     gain += _doors(united, apart=False) - _doors(united, apart=True)
     gain += _structure_gain(united, more)
-    gain += _gain(h, UNDONE, 0, more.crooked) + more.meeting * INJECTIVE
+    gain += _gain(h, UNDONE, 0, more.crooked)
+    if h.scheme.inverse is None:
+        gain += _gain(h, MEETING, more.meeting, more.ways - more.meeting)
     if united.charts.joined > 1:
         gain -= log(h.size + 1.0)
     return gain, more

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..changes import Changes, Store
+from ..dirichlet import SparseDirichlet
 from ..errors import CogmapError
 from ..growth_event import GrowthEvent
 from ..information import KnownInformation
@@ -171,6 +172,13 @@ class ModelFactor:
 
     def grow(self, places: int) -> None:
         """Have room for so many places: new ones are appended, or the last are dropped."""
+
+    def blank(self, place: int) -> None:
+        """Know nothing of a place any more, as if it was just appended."""
+        for store in self.stores:
+            if isinstance(store, SparseDirichlet):
+                for row in range(place * store.rows_each, (place + 1) * store.rows_each):
+                    store.clear(row)
 
     def savepoint(self) -> Any:
         """What `go_back` needs of it besides its stores. Attributes of a class of your own are copied without it."""

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from math import inf, lgamma, log, pi, sqrt
+from math import inf, log, sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gammaln
 
 from ..errors import CogmapError
 from .base import Floats
+from .clusters import halves, seating, student
 
 CONCENTRATION = 1.0
 """Of the Chinese restaurant process: after n vectors the next shows something new with probability 1 / (n + 1)."""
 
 POSSIBLE = 0.02
-"""Probability from which on a vector is taken for something new while little is known of the spread.
+"""Probability from which on a vector is taken for something new while little is known of the spread or the prototype.
 
 To unite two that are one is safer than to part them. Where much is known it is a half.
 """
@@ -27,6 +27,9 @@ SURE = log(100.0)
 
 WORTH = 4.0
 """Numbers that the first guess of the spread counts as."""
+
+RECENT, LEAST = 64, 4
+"""The last vectors that are kept, and how many of a prototype are needed to part it."""
 
 GUESSED = 6.0
 """Numbers that the first guess of how prototypes differ counts as."""
@@ -39,7 +42,8 @@ class Prototypes:
     about (`noise` τ)², so that a vector is known again by a Student t; and τ² one about the variance of the numbers of
     the first vector, until there are prototypes that tell better. So what all vectors have in common, number by number,
     must not be much more than what tells them apart: subtract it before. Each vector teaches by its posterior. What may
-    be new is taken for new, and united with what turns out to be the same when more is known.
+    be new is taken for new, and united with what turns out to be the same when more is known; one of which the last
+    vectors are surely of two is parted.
 
     It is a store of the map, but the log of changes does not speak of it: what was seen stays seen, wherever it was.
 
@@ -55,6 +59,8 @@ class Prototypes:
         self._stray = np.zeros(2)  # sum of squares about prototypes, and how many numbers it is of
         self._counts = np.zeros(0)
         self._sums = np.zeros((0, size))
+        self._recent = np.zeros((0, size))
+        self._shown = np.zeros(0, dtype=np.int64)  # the prototypes of the last vectors
 
     @property
     def count(self) -> int:
@@ -85,12 +91,12 @@ class Prototypes:
         centres = (self._sums + shrink * mean) / (self._counts + shrink)[:, None]
         wider = variance * (1.0 + 1.0 / (self._counts + shrink))
         squares = ((vector - centres) ** 2).sum(axis=1)
-        known = _student(squares, wider, WORTH + self._stray[1].item(), self._size)
+        known = student(squares, wider, WORTH + self._stray[1].item(), self._size)
         known[self._counts == 0.0] = -inf
         there = int((self._counts > 0.0).sum())
         total = apart * (1.0 + 1.0 / (1.0 + there)) + variance
         degrees = GUESSED + max(there - 1, 0) * self._size
-        new = _student(np.array([((vector - mean) ** 2).sum()]), np.array([total]), degrees, self._size)
+        new = student(np.array([((vector - mean) ** 2).sum()]), np.array([total]), degrees, self._size)
         return known, new.item()
 
     def take_in(self, vector: Floats) -> Floats:
@@ -105,18 +111,32 @@ class Prototypes:
         with np.errstate(divide="ignore"):
             weighed = np.append(told + np.log(self._counts), new + log(CONCENTRATION))
         posterior = np.exp(weighed - np.logaddexp.reduce(weighed))
-        known = self._stray[1] / (self._stray[1] + 8.0 * self._size)
-        if posterior[-1] > POSSIBLE + known * (0.5 - POSSIBLE):
+        if posterior[-1] > self._needed(int(posterior[:-1].argmax()) if len(told) else None):
             self._counts = np.append(self._counts, 1.0)
             self._sums = np.vstack([self._sums, vector])
             told = np.append(told, new)
         else:
             self._learn(vector, posterior[:-1] / posterior[:-1].sum())
+        number = int(told.argmax())
+        self._remember(vector, number)
         while (same := self._same()) is not None:
-            kept, gone = same
-            self._unite(kept, gone)
-            told[kept], told[gone] = np.logaddexp(told[kept], told[gone]), -inf
+            self._unite(*same)
+            told = self.log_likelihoods(vector)[0]
+        if self._part(number):
+            told = self.log_likelihoods(vector)[0]
         return told
+
+    def _remember(self, vector: Floats, number: int) -> None:
+        self._recent = np.vstack([self._recent, vector])[-RECENT:]
+        self._shown = np.append(self._shown, number)[-RECENT:]
+
+    def _needed(self, nearest: int | None) -> float:
+        """Probability from which on a vector is taken for something new, the nearest prototype being this one."""
+        if nearest is None:
+            return 0.0
+        spread, count = self._stray[1].item(), self._counts[nearest].item()
+        known = spread / (spread + 8.0 * self._size) * count / (count + 4.0)
+        return POSSIBLE + known * (0.5 - POSSIBLE)
 
     def _begin(self, vector: Floats) -> None:
         """What a first vector says of them all."""
@@ -131,16 +151,42 @@ class Prototypes:
             return None
         one, other = np.triu_indices(len(at), 1)
         one, other = at[one], at[other]
-        _, apart = self._apart()
-        variance = self._variance(apart)
-        many, few = self._counts[one], self._counts[other]
-        squares = ((self._sums[one] / many[:, None] - self._sums[other] / few[:, None]) ** 2).sum(axis=1)
-        wide = variance * (1.0 / many + 1.0 / few)
-        same = _student(squares, wide, WORTH + self._stray[1].item(), self._size)
-        different = _student(squares, wide + 2.0 * apart, GUESSED + (len(at) - 1) * self._size, self._size)
-        odds = same - different + gammaln(many + few) - gammaln(many) - gammaln(few) - log(CONCENTRATION)
+        squares = (
+            (self._sums[one] / self._counts[one, None] - self._sums[other] / self._counts[other, None]) ** 2
+        ).sum(1)
+        odds = self._odds(squares, self._counts[one], self._counts[other])
         best = int(odds.argmax())
         return (int(one[best]), int(other[best])) if odds[best] > SURE else None
+
+    def _odds(self, squares: Floats, many: Floats, few: Floats) -> Floats:
+        """`[n]` log odds that two means are of one prototype, by their squared distance, each of so many vectors."""
+        apart = self._apart()[1]
+        wide = self._variance(apart) * (1.0 / many + 1.0 / few)
+        same = student(squares, wide, WORTH + self._stray[1].item(), self._size)
+        there = int((self._counts > 0.0).sum())
+        different = student(squares, wide + 2.0 * apart, GUESSED + max(there - 1, 0) * self._size, self._size)
+        return same - different + seating(many, few, CONCENTRATION)
+
+    def _part(self, number: int) -> bool:
+        """Part a prototype in two, if its last vectors are surely of two; whether it was."""
+        own = np.flatnonzero(self._shown == number)
+        if len(own) < LEAST or not self._counts[number]:
+            return False
+        half = halves(self._recent[own])
+        half = half if half.sum() <= (~half).sum() else ~half
+        few, many = float(half.sum()), float((~half).sum())
+        if min(few, many) < 2.0 or few >= self._counts[number]:
+            return False
+        gone = self._recent[own[half]].sum(axis=0)
+        squares = ((gone / few - self._recent[own[~half]].mean(axis=0)) ** 2).sum()
+        if self._odds(np.array([squares]), np.array([many]), np.array([few]))[0] > -SURE:
+            return False
+        self._shown[own[half]] = self.count
+        self._stray = np.maximum(self._stray - [float(squares * many * few / (many + few)), self._size], 0.0)
+        self._counts, self._sums = np.append(self._counts, few), np.vstack([self._sums, gone])
+        self._counts[number] -= few
+        self._sums[number] -= gone
+        return True
 
     def _unite(self, kept: int, gone: int) -> None:
         many, few = self._counts[kept], self._counts[gone]
@@ -149,6 +195,7 @@ class Prototypes:
         self._counts[kept], self._counts[gone] = many + few, 0.0
         self._sums[kept] += self._sums[gone]
         self._sums[gone] = 0.0
+        self._shown[self._shown == gone] = kept
 
     def _learn(self, vector: Floats, share: Floats) -> None:
         there = self._counts > 0.0
@@ -179,18 +226,6 @@ class Prototypes:
     def value(self, numbers: Sequence[float]) -> None:
         """Nothing."""
 
-    def savepoint(self) -> dict[str, NDArray[Any]]:
-        """Copies of all that it knows, since the log does not speak of it."""
-        return self.state()
-
-    def level(self) -> None:
-        """Nothing."""
-
-    def go_back(self, point: Mapping[str, NDArray[Any]]) -> None:
-        """Know what it knew."""
-        for name, part in point.items():
-            setattr(self, f"_{name}", part.copy())
-
     def fits(self, where: Any, value: Any, places: int) -> bool:
         """Never: no change of it is logged."""
         return False
@@ -202,6 +237,7 @@ class Prototypes:
     def state(self) -> dict[str, NDArray[Any]]:
         """Copies of all that it knows."""
         parts = {"first": self._first, "stray": self._stray, "counts": self._counts, "sums": self._sums}
+        parts |= {"recent": self._recent, "shown": self._shown.astype(np.float64)}
         return {name: part.copy() for name, part in parts.items()}
 
     def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -210,17 +246,14 @@ class Prototypes:
         Raises:
             CogmapError: it is of vectors of another size, or no such numbers.
         """
-        first, stray, counts, sums = (state[part] for part in ("first", "stray", "counts", "sums"))
-        fits = first.shape == stray.shape == (2,) and counts.ndim == 1 and sums.shape == (len(counts), self._size)
-        parts = (first, stray, counts, sums)
+        first, stray, counts, sums, recent, shown = (state[part] for part in self.state())
+        fits = first.shape == stray.shape == (2,) and counts.ndim == shown.ndim == 1
+        fits = fits and sums.shape == (len(counts), self._size) and recent.shape == (len(shown), self._size)
+        parts = (first, stray, counts, sums, recent, shown)
         if not (fits and all(part.dtype == np.float64 and (np.abs(part) < inf).all() for part in parts)):
             raise CogmapError(f"map: {self.name} do not fit vectors of {self._size} numbers; save it again")
-        if not ((counts >= 0.0).all() and (stray >= 0.0).all() and first[1] >= 0.0):
+        known = (shown >= 0.0) & (shown < len(counts))
+        if not ((counts >= 0.0).all() and (stray >= 0.0).all() and first[1] >= 0.0 and known.all()):
             raise CogmapError(f"map: {self.name} have counts that are none; save it again")
-        self._first, self._stray, self._counts, self._sums = (part.copy() for part in parts)
-
-
-def _student(squares: Floats, variance: Floats, degrees: float, size: int) -> Floats:
-    """`[K]` log density of a D-dimensional Student t at a squared distance from its centre."""
-    constant = lgamma(0.5 * (degrees + size)) - lgamma(0.5 * degrees) - 0.5 * size * log(degrees * pi)
-    return constant - 0.5 * size * np.log(variance) - 0.5 * (degrees + size) * np.log1p(squares / (degrees * variance))
+        self._first, self._stray, self._counts, self._sums = first.copy(), stray.copy(), counts.copy(), sums.copy()
+        self._recent, self._shown = recent.copy(), shown.astype(np.int64)

@@ -61,6 +61,15 @@ class Transition(ModelFactor):
             prior[:, stay, 1] = 0.0
             self.table.begin(slice(old * size, places * size), keys.reshape(-1, 2), prior.reshape(-1, 2))
 
+    def blank(self, place: int) -> None:
+        """Its ways may be blocked or lead somewhere, for all that is known."""
+        prior = self.context.priors.transition
+        for action in range(len(self.motions)):
+            stays = action == self.motions.stay
+            self.table.clear(self.row(place, action), (place,) if stays else (place, ELSEWHERE), prior)
+            self.sensed.set((place, action), UNKNOWN)
+            self.walked.set((place, action), False)
+
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over the arrays."""
         self.grow(places)
@@ -147,7 +156,18 @@ class Transition(ModelFactor):
 
     def link(self, place: int, action: int, neighbour: int) -> None:
         """What lies beyond a door has become a place of the map: its slot gets the name."""
-        self.table.rename(self.row(place, action), ELSEWHERE, neighbour)
+        row = self.row(place, action)
+        if neighbour in self.table.concentrations(row):
+            self.table.unite(row, ELSEWHERE, neighbour)
+        else:
+            self.table.rename(row, ELSEWHERE, neighbour)
+
+    def lead(self, place: int, action: int, neighbour: int) -> None:
+        """What lies beyond a way is this place, whatever was thought before."""
+        row = self.row(place, action)
+        keys = [key for key in self.table.concentrations(row) if key not in (EMPTY, place)]
+        if neighbour not in (place, *keys):
+            self.table.rename(row, keys[0] if keys else ELSEWHERE, neighbour)
 
     def learn(self, previous: int, action: int, next_: int, weight: float) -> None:
         """A walked transition, weighted by its pairwise posterior; one that went nowhere was blocked (eq. B_up)."""

@@ -80,7 +80,7 @@ def facts_of(agent: Agent) -> Facts:
         "G": plan.expected_free_energy.row(plan.chosen),
         "learned": _changes(record.learned),
         "grown": [[event.kind, event.index] for event in record.grown],
-        "retracted": record.retracted,
+        "revised": record.revised,
     }
 
 

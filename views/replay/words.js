@@ -36,10 +36,9 @@ function believed(frame) {
 
 function changed(frame) {
   const parts = [];
-  if (frame.moved >= 0.5 && frame.retracted == null) parts.push("It finds that it was moved.");
-  if (frame.retracted != null) {
-    parts.push(`It finds that it was elsewhere since step ${frame.retracted}, and takes back what it learned since.`);
-  }
+  const revised = frame.revised || (frame.retracted ?? null) !== null;
+  if (frame.moved >= 0.5) parts.push("It finds that it was moved.");
+  else if (revised) parts.push("It changes its mind about the map, or about where it is.");
   const count = (kind) => frame.grown.filter((event) => event[0] === kind).length;
   const grown = [["place", "place"], ["sight", "sight"]].map(([kind, what]) => [count(kind), what]).filter(([n]) => n);
   if (grown.length) parts.push(`New to it: ${grown.map(([n, what]) => plural(n, what)).join(" and ")}.`);

@@ -7,6 +7,7 @@ from collections.abc import Hashable, Sequence
 from ...dirichlet import SparseDirichlet
 from ...domain import Domain
 from ...motions import Position
+from ...periods import Periods
 from ..base import Floats, Ints, ModelFactor
 
 Ahead = Sequence[tuple[Ints, float]]
@@ -21,11 +22,13 @@ class Pose(ModelFactor):
     Attributes:
         positions: their labels.
         table: counts of P(p | s), a row a place.
+        periods: that positions repeat with; none unless a pose knows better.
     """
 
     name = "pose"
     positions: Domain
     table: SparseDirichlet
+    periods: Periods = ()
 
     @property
     def origin(self) -> Position | None:
@@ -73,6 +76,9 @@ class Pose(ModelFactor):
     def settle(self, place: int, position: Position, *, step: int) -> None:
         """Give a place its position."""
         raise NotImplementedError
+
+    def close(self, periods: Periods) -> None:
+        """Positions that differ by one of these periods are the same from now on; only before any place has one."""
 
     def neighbours(self, place: int) -> Sequence[tuple[int, int]]:
         """The actions that lead from a place to another by its pose, and that place."""

@@ -17,6 +17,7 @@ from ...errors import CogmapError
 from ...growth_event import GrowthEvent
 from ...labels import decode, encode
 from ...motions import Position
+from ...periods import Periods, reduced
 from ..base import Context, Floats, Ints, Support, Table, parts_of
 from .base import Ahead, Pose
 
@@ -27,6 +28,9 @@ MANY = 2**25
 class Lattice(Pose):
     """A place has one position, relative to where the agent woke up, and a position one place.
 
+    Of places that the agent was put into without knowing where they are, positions are relative to the first of them:
+    such a position has the number of the fragment as a last coordinate, and `position` gives None.
+
     Args:
         slip: probability that a motion through an open door does not change the position, or through a blocked one
             does; that of the model's settings unless given.
@@ -34,6 +38,7 @@ class Lattice(Pose):
     Attributes:
         positions: those met so far, by number.
         table: A_p, a row a place.
+        periods: of a lattice that closes on itself, such as that of a torus.
         beyond: `[P, K]` B_p: the position that each motion leads to; -1 where it has no number yet.
 
     Raises:
@@ -44,6 +49,7 @@ class Lattice(Pose):
         if slip is not None and not 0.0 <= slip <= 1.0:
             raise CogmapError(f"pose: slip is {slip!r}; use a number from 0 to 1")
         self._slip = slip
+        self.periods: Periods = ()
 
     @property
     def options(self) -> dict[str, Any]:
@@ -88,10 +94,12 @@ class Lattice(Pose):
 
     def state(self) -> dict[str, Any]:
         """The positions."""
-        return {"positions": [encode(position) for position in self.positions]}
+        periods = {"periods": [list(row) for row in self.periods]} if self.periods else {}
+        return {"positions": [encode(position) for position in self.positions], **periods}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over positions and counts."""
+        self.periods = tuple(tuple(map(int, row)) for row in state.get("periods", ()))
         positions = [decode(position) for position in state["positions"]]
         self._check(positions, places)
         for position in positions:
@@ -111,7 +119,8 @@ class Lattice(Pose):
         """Refuse what are no positions, and so many that a table of them would fill the memory."""
         dimensions = len(self.origin)
         for position in positions:
-            if not (isinstance(position, tuple) and len(position) == dimensions and set(map(type, position)) == {int}):
+            whole = isinstance(position, tuple) and set(map(type, position)) == {int}
+            if not (whole and len(position) in (dimensions, dimensions + 1)):
                 raise CogmapError(f"map: {position!r} is no position; save it again")
             if max(map(abs, position)) >= 2**62:
                 raise CogmapError("map: a position is too far away; save it again")
@@ -128,9 +137,22 @@ class Lattice(Pose):
         return (0,) * len(self.motions.displacements[0])
 
     def position(self, place: int) -> Position | None:
-        """The position of a place; None where it has none."""
+        """The position of a place relative to the start; None where that is not known."""
+        known = self._known(place)
+        return None if known is None or len(known) > len(self.motions.displacements[0]) else known
+
+    def _known(self, place: int) -> Position | None:
+        """The position of a place, in whatever fragment."""
         index = int(self.position_of.values[place])
         return None if index < 0 else cast(Position, self.positions[index])
+
+    def moved(self, position: Position, action: int) -> Position:
+        """The position that `action` leads to, the one that stands for all that differ by periods."""
+        step = self.motions.displacements[action]
+        moved = tuple(x + d for x, d in zip(position, step, strict=False))
+        if len(position) > len(step):
+            return (*moved, position[-1])
+        return reduced(moved, self.periods) if self.periods else moved
 
     def place_at(self, position: Hashable) -> int | None:
         """The place at a position; None where there is none."""
@@ -198,7 +220,7 @@ class Lattice(Pose):
 
     def _connect(self, index: int, position: Position) -> None:
         for action in range(len(self.motions)):
-            there = self.positions.find(self.motions.move(position, action))
+            there = self.positions.find(self.moved(position, action))
             if there is not None:
                 self.beyond.values[index, action] = there
                 self.beyond.values[there, self.motions.inverse[action]] = index
@@ -209,8 +231,8 @@ class Lattice(Pose):
 
     def ahead(self, place: int, action: int) -> tuple[Position | None, int | None]:
         """Where `action` leads from a place, and the place that is there."""
-        here = self.position(place)
-        there = None if here is None else self.motions.move(here, action)
+        here = self._known(place)
+        there = None if here is None else self.moved(here, action)
         return there, None if there is None else self.place_at(there)
 
     def settle(self, place: int, position: Position, *, step: int) -> None:
@@ -219,6 +241,28 @@ class Lattice(Pose):
         self.position_of.set(place, index)
         self.places.set(index, place)
         self.table.expect(place, index, self.context.priors.position)
+
+    def blank(self, place: int) -> None:
+        """It has no position."""
+        index = self.position_of.values.item(place)
+        super().blank(place)
+        if index >= 0:
+            self.position_of.set(place, -1)
+            self.places.set(index, -1)
+
+    def close(self, periods: Periods) -> None:
+        """Positions that differ by one of these periods are the same from now on.
+
+        Raises:
+            CogmapError: there are places with positions.
+        """
+        if (self.places.values >= 0).any():
+            raise CogmapError("pose: a lattice closes on itself before it has places, not after; clear the map first")
+        if periods != self.periods:
+            self.periods = periods
+            self.beyond.values[:] = -1
+            for index, position in enumerate(self.positions):
+                self._connect(index, cast(Position, position))
 
     def neighbours(self, place: int) -> Sequence[tuple[int, int]]:
         """The actions that lead from a place to one beside it, and that place."""

@@ -1,0 +1,284 @@
+"""Has the map say what the most probable hypothesis says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from ..inference import NOWHERE, Hypothesis, Place, open_probability
+from ..model import CognitiveMap, Growth, Position, Ways, Whereabouts
+
+WALKS = 3
+"""Walks along a way from which on more of them add nothing to its counts."""
+
+SURE = 0.9
+"""From this probability on a way is taken to be open, or shut."""
+
+Doors = tuple[bool | float | None, ...]
+"""For each action whether its way is believed open, or how much so; None where nothing is known of it."""
+
+
+def passable(doors: Doors) -> tuple[bool, ...]:
+    """For each action whether something may lie beyond: where nothing is known of its way, it may."""
+    return tuple(door is None or door > 0.5 for door in doors)
+
+
+class Mirror:
+    """The places of a hypothesis, and what it knows of them, in a map.
+
+    Attributes:
+        places: by number of a place of the hypothesis, the place of the map.
+        missed: the places of the hypothesis of which the map was not taught what the last steps said.
+        ways: what teaches the map which ways are open.
+    """
+
+    def __init__(self, map_: CognitiveMap, growth: Growth, actions: Sequence[int]) -> None:
+        self._map, self._growth, self._actions = map_, growth, actions
+        self.places: dict[int, int] = {}
+        self.missed: set[int] = set()
+        self._records: dict[int, Place] = {}
+        found = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Ways)]
+        self.ways = found[0] if found else map_.unsensed_ways()
+
+    # -- reading -------------------------------------------------------------------------------------------
+
+    def position(self, h: Hypothesis, number: int) -> Position | None:
+        """The position of a place of the hypothesis, as the pose of the map has it; None without poses."""
+        return self._at(h.places[number].frame, h.places[number].position)
+
+    def _at(self, frame: int, position: Position) -> Position | None:
+        return None if self._map.pose.origin is None else position if frame == 0 else (*position, frame)
+
+    def action(self, way: int) -> str:
+        """The name of the action that takes a way."""
+        return self._map.motions.names[self._actions[way]]
+
+    def place(self, h: Hypothesis) -> int | None:
+        """The place of the map where a hypothesis has the agent; None for one that the map does not have."""
+        known = self._records.get(h.here)
+        return self.places[h.here] if known is not None and (known.frame, known.position) == self._key(h) else None
+
+    def grows(self, h: Hypothesis, place: int) -> bool:
+        """Whether a step that only adds to the map leads to `place` of it, as the hypothesis has it."""
+        known = self.places.get(h.here)
+        if known is not None:
+            return known == place
+        at = self.position(h, h.here)
+        alone = not self._map.visited[place] and (at is None or self._map.pose.place_at(at) == place)
+        return alone and not self._off(h)
+
+    def _off(self, h: Hypothesis) -> bool:
+        """Whether the agent came to the place where it is by a way that leads where the pose does not say."""
+        if h.scheme.displacements is None:
+            return False
+        here = h.places[h.here]
+        return any(h.beyond(h.places[source], way) != (here.frame, here.position) for source, way in here.into)
+
+    def belief(self, hypotheses: Sequence[tuple[Hypothesis, float]], *, here: int) -> tuple[dict[int, float], float]:
+        """Mass of the places of the map where the agent may be, and that of the hypotheses that have it elsewhere.
+
+        Args:
+            hypotheses: with their probabilities, the one that the map says first.
+            here: the place of the map where the first one has the agent.
+        """
+        best = hypotheses[0][0]
+        at = self._key(best)
+        mass, elsewhere = dict[int, float](), 0.0
+        for h, p in hypotheses:
+            place = here if h.here == best.here and self._key(h) == at else self.place(h)
+            if place is None:
+                elsewhere += p
+            else:
+                mass[place] = mass.get(place, 0.0) + p
+        return mass, elsewhere
+
+    def _key(self, h: Hypothesis) -> tuple[int, Position]:
+        here = h.places[h.here]
+        return here.frame, here.position
+
+    def steps_in(self, place: int) -> tuple[int, ...]:
+        """The last steps at which the agent was in a place of the map, if the map is right; a handful at most."""
+        numbers = [number for number, at in self.places.items() if at == place]
+        return self._records[numbers[0]].recent if numbers and numbers[0] in self._records else ()
+
+    def doors(self, h: Hypothesis, number: int) -> Doors:
+        """For each action whether its way is believed open, or how much so; None where nothing is known of it."""
+        map_, record = self._map, h.places[number]
+        doors: list[bool | float | None] = [True] * len(map_.motions)
+        for way, action in enumerate(self._actions):
+            known = record.ways[way]
+            heard = known.net or known.walks or h.neighbour(record, way) != NOWHERE
+            doors[action] = _sure(open_probability(h, number, way)) if heard else None
+        return tuple(doors)
+
+    # -- following -----------------------------------------------------------------------------------------
+
+    def grown(self, h: Hypothesis, place: int, touched: Iterable[int]) -> None:
+        """The map was taught the last step already: take note of it.
+
+        Args:
+            h: the hypothesis.
+            place: the place of the map where it has the agent.
+            touched: the places of the hypothesis that the step has changed.
+        """
+        self.places[h.here] = place
+        self._note(h, touched)
+
+    def miss(self, h: Hypothesis, touched: Iterable[int]) -> None:
+        """The map was not taught the last step."""
+        self.missed |= {h.here, *touched}
+        self._note(h, touched)
+
+    def _note(self, h: Hypothesis, touched: Iterable[int]) -> None:
+        for number in {h.here, *touched}:
+            self._records[number] = h.places[number]
+
+    def follow(self, h: Hypothesis, *, step: int) -> dict[int, int] | None:
+        """Have the map say what the hypothesis says.
+
+        Returns:
+            Where the places of the map are now that it was built anew, those that are gone left out; None where only
+            what is known of its places has changed.
+        """
+        changed = [number for number in h.places if number in self.missed or self._differs(h, number)]
+        if self._fits(h, changed):
+            for number in changed:
+                if number not in self.places:
+                    self._add(h, number, step=step)
+            for number in changed:
+                self._map.blank(self.places[number])
+            self._teach(h, changed, step=step)
+            moved = None
+        else:
+            moved = self._rebuild(h, step=step)
+        self._records = {number: h.places[number] for number in h.places}
+        self.missed = set()
+        return moved
+
+    def _differs(self, h: Hypothesis, number: int) -> bool:
+        now, before = h.places[number], self._records.get(number)
+        return now is not before and now != before
+
+    def _fits(self, h: Hypothesis, changed: Sequence[int]) -> bool:
+        """Whether no place of the map is too many, or elsewhere than the hypothesis has it."""
+        map_ = self._map
+        if not self.places or any(h.places.get(number) is None for number in self.places):
+            return False
+        if h.periods.get(0, ()) != map_.pose.periods or map_.pose.origin is None:
+            return False
+        for number in {*changed, h.here}:
+            at, place = self.position(h, number), self.places.get(number)
+            there = None if at is None else map_.pose.place_at(at)
+            if place is None and there is not None and (map_.visited[there] or there in self.places.values()):
+                return False
+            if place is not None and there != place:
+                return False
+            if not self._leads_there(h, number, place):
+                return False
+        return True
+
+    def _leads_there(self, h: Hypothesis, number: int, place: int | None) -> bool:
+        """Whether the ways of a place lead to where the pose says, and none that is shut to a place only imagined."""
+        record, map_ = h.places[number], self._map
+        for way, action in enumerate(self._actions):
+            to = record.ways[way].to
+            if to != NOWHERE and h.scheme.displacements is not None:
+                if h.beyond(record, way) != (h.places[to].frame, h.places[to].position):
+                    return False
+            elif place is not None and to == NOWHERE and open_probability(h, number, way) < 0.5:
+                beyond = map_.beyond(place, action)
+                if beyond is not None and not map_.visited[beyond] and not self._entered(beyond, place):
+                    return False
+        return True
+
+    def _entered(self, imagined: int, place: int) -> bool:
+        """Whether an open way leads to an imagined place from another one than `place`."""
+        map_ = self._map
+        for action, neighbour in map_.pose.neighbours(imagined):
+            back = map_.motions.inverse[action]
+            if neighbour != place and map_.visited[neighbour] and map_.transition(imagined, neighbour, back) > 0.5:
+                return True
+        return False
+
+    def shut_out(self, h: Hypothesis) -> bool:
+        """Whether a way of the place where the agent is, now believed shut, was all that led to an imagined place."""
+        place = self.places.get(h.here)
+        return place is not None and not self._leads_there(h, h.here, place)
+
+    # -- building ------------------------------------------------------------------------------------------
+
+    def _rebuild(self, h: Hypothesis, *, step: int) -> dict[int, int]:
+        before = self.places
+        self._map.clear(step=step)
+        self._map.pose.close(h.periods.get(0, ()))
+        self.places = {}
+        numbers = sorted(h.places)
+        for number in numbers:
+            self._add(h, number, step=step)
+        self._teach(h, numbers, step=step)
+        return {before[number]: self.places[number] for number in numbers if number in before}
+
+    def _add(self, h: Hypothesis, number: int, *, step: int) -> None:
+        """A place of the map for one of the hypothesis: an imagined one, if there is one where it is."""
+        map_, at = self._map, self.position(h, number)
+        if not len(map_.places) and at == map_.pose.origin:
+            self.places[number] = self._growth.begin(map_, step=step)[0]
+            return
+        there = None if at is None else map_.pose.place_at(at)
+        for source, way in sorted(h.places[number].into):
+            if there is None and source in self.places and at is not None:
+                self._growth.enter(map_, Whereabouts({self.places[source]: 1.0}), self._actions[way], step=step)
+                there = map_.pose.place_at(at)
+        self.places[number] = map_.new_place(at, step=step) if there is None else there
+
+    def _teach(self, h: Hypothesis, numbers: Sequence[int], *, step: int) -> None:
+        """What the hypothesis knows of places that the map knows nothing of."""
+        map_ = self._map
+        for number in numbers:
+            place = self.places[number]
+            map_.mark_visited(place)
+            self._link(h, number)
+        for number in numbers:
+            place, doors = self.places[number], self.doors(h, number)
+            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), passable(doors), step=step))
+            self._teach_place(h, number, doors)
+        for number in numbers:
+            self._walk(h, number)
+
+    def _link(self, h: Hypothesis, number: int) -> None:
+        """Name what lies beyond the ways of a place: what poses say, but for the ways that lead elsewhere."""
+        map_, place, record = self._map, self.places[number], h.places[number]
+        leads = dict(map_.pose.neighbours(place))
+        for way, action in enumerate(self._actions):
+            to = h.neighbour(record, way)
+            if to != NOWHERE and to in self.places:
+                leads[action] = self.places[to]
+        for action, neighbour in leads.items():
+            if map_.beyond(place, action) != neighbour:
+                map_.transitions.lead(place, action, neighbour)
+
+    def _teach_place(self, h: Hypothesis, number: int, doors: Doors) -> None:
+        map_, place, record = self._map, self.places[number], h.places[number]
+        for sensor, counts in zip(map_.sights_sensed, record.sights, strict=False):
+            for label, count in counts.items():
+                sensor.learn(place, label, count)
+        map_.pose.learn(place, float(len(record.recent)))
+        self.ways.learn(place, doors, 1.0)
+
+    def _walk(self, h: Hypothesis, number: int) -> None:
+        map_, place = self._map, self.places[number]
+        for way, action in enumerate(self._actions):
+            known = h.places[number].ways[way]
+            if known.walks and known.to != NOWHERE and open_probability(h, number, way) > 0.5:
+                for _ in range(min(known.walks, WALKS)):
+                    map_.transitions.learn(place, action, self.places[known.to], 1.0)
+
+    # -- files ---------------------------------------------------------------------------------------------
+
+    def restore(self, h: Hypothesis, places: Mapping[int, int], *, missed: Iterable[int] = ()) -> None:
+        """Take over which place is which, as the map has them, and of which it was not taught the last steps."""
+        self.places, self.missed = dict(places), set(missed)
+        self._records = {number: h.places[number] for number in h.places}
+
+
+def _sure(p: float) -> bool | float:
+    return p if 1.0 - SURE < p < SURE else p > 0.5

@@ -1,0 +1,188 @@
+"""Which place is which: hypotheses about the map, and the map as the most probable one has it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from math import exp
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inference import Belief, Hypothesis, Message, RateOf, Tracker, TrackerOptions, rates_of, tracker_knowing
+from ..model import CognitiveMap, Growth, Percept
+from .hypotheses import MapHypothesis, compared
+from .knowing import records_of
+from .mirror import Doors, Mirror, passable
+from .sensing import Sensing
+
+Arrays = dict[str, NDArray[Any]]
+
+
+class Recognition:
+    """Weighs hypotheses about the map, and has the map say what the most probable one says.
+
+    Attributes:
+        sensing: percepts in the words of hypotheses.
+        tracker: the hypotheses.
+        mirror: the places of the followed one in the map.
+        followed: the one that the map says; None before the first step.
+        moved: whether it has the agent moved by someone else in the last step.
+    """
+
+    def __init__(self, map_: CognitiveMap, growth: Growth, options: TrackerOptions) -> None:
+        self._map = map_
+        self.sensing = Sensing(map_)
+        self.tracker = Tracker(self.sensing.scheme, options)
+        self.mirror = Mirror(map_, growth, self.sensing.actions)
+        self.followed: Hypothesis | None = None
+        self.moved = False
+
+    @property
+    def rates(self) -> list[RateOf]:
+        """What is learned of how this world is, as the hypothesis that is followed has it."""
+        return [] if self.followed is None else rates_of(self.followed)
+
+    @property
+    def _now(self) -> Hypothesis:
+        assert self.followed is not None
+        return self.followed
+
+    def take_in(self, percept: Percept) -> None:
+        """Weigh the hypotheses by what a step brought; the map stays as it is."""
+        sensed = self.sensing.sensed(percept, place=self.mirror.places.get)
+        self.tracker.step(sensed, self.sensing.labels())
+
+    def choose(self, belief: Belief, *, certainty: float) -> bool:
+        """Follow the hypothesis that goes on from the one followed, and has the agent where `belief` has it.
+
+        Only what is held with `certainty` changes the map's mind, or else it would change to and fro while a question
+        is open.
+
+        Returns:
+            Whether there is one; if not, the most probable one is followed from now on.
+        """
+        before, best = self.followed, self.tracker.best
+        candidates = [h for h in self.tracker.hypotheses if self._goes_on(h, belief.place)]
+        agreed = bool(candidates) and (candidates[0] is best or exp(best.weight) < certainty)
+        self.followed = candidates[0] if agreed else best
+        self.moved = self._moved(before)
+        return agreed
+
+    def _goes_on(self, h: Hypothesis, place: int) -> bool:
+        goes_on = h.origin is self.followed and not self.mirror.missed
+        return goes_on and self.mirror.grows(h, place)
+
+    def _moved(self, before: Hypothesis | None) -> bool:
+        """Whether the agent was moved, as the hypothesis that is followed has it."""
+        now = self._now
+        if before is None or before.here == now.here or now.places.get(before.here) is None:
+            return False
+        return all(source != before.here for source, _ in now.places[now.here].into)
+
+    @property
+    def place(self) -> int:
+        """The place of the map where the followed hypothesis has the agent."""
+        return self.mirror.places[self._now.here]
+
+    @property
+    def doors(self) -> Doors:
+        """For each action whether its way is believed open here, or how much so; None where nothing is known of it."""
+        return self.mirror.doors(self._now, self._now.here)
+
+    def open(self, percept: Percept) -> tuple[bool, ...]:
+        """For each action whether its way may be open now: neither sensed nor believed shut."""
+        sensed = percept.passable or (True,) * len(self._map.motions)
+        return tuple(is_open and door for is_open, door in zip(sensed, passable(self.doors), strict=True))
+
+    def compared(self) -> tuple[MapHypothesis, ...]:
+        """Every hypothesis, the most probable first, beside the one that is followed."""
+        hypotheses = self.tracker.hypotheses
+        return compared(self._now, hypotheses, self.mirror) if hypotheses else ()
+
+    def missed(self) -> None:
+        """The map was not taught the last step."""
+        self.mirror.miss(self._now, self._now.touched)
+
+    def grown(self, place: int) -> bool:
+        """The map was taught the last step, in this place; whether it is what the hypothesis says."""
+        self.mirror.grown(self._now, place, self._now.touched)
+        return not self.mirror.shut_out(self._now)
+
+    def follow(self, *, step: int) -> dict[int, int] | None:
+        """Have the map say what the most probable hypothesis says; see `Mirror.follow`."""
+        return self.mirror.follow(self._now, step=step)
+
+    def weighed(self, belief: Belief) -> Belief:
+        """The belief with the probability of the hypotheses in which the agent is elsewhere than it says."""
+        if len(self.tracker.hypotheses) == 1:
+            return belief
+        mass, elsewhere = self.mirror.belief(self._weights(), here=belief.place)
+        held = belief.places
+        lost = elsewhere + sum(p for place, p in mass.items() if place not in held)
+        return replace(belief, doubt=min(lost, 1.0))
+
+    def believed(self, percept: Percept) -> Belief:
+        """The belief that the hypotheses amount to, over the places of the map."""
+        map_, none = self._map, np.zeros(0, dtype=np.int64)
+        mass, elsewhere = self.mirror.belief(self._weights(), here=self.mirror.places[self._now.here])
+        places = np.array(sorted(mass), dtype=np.int64)
+        q = np.array([mass[place] for place in places.tolist()])
+        told, q = map_.log_likelihood(places, percept), q / q.sum()
+        return Belief(
+            message=Message(places, map_.pose.of(places), q),
+            evidence=-float(np.log(q @ np.exp(-told))),  # over these places: 1 / P(o) = E_Q[1 / P(o | s)]
+            log_likelihood=told,
+            moved=float(self.moved),
+            dropped=0.0,
+            examined=True,
+            pairwise=(none, none, np.zeros(0)),
+            doubt=elsewhere,
+            likelihoods=map_.likelihoods(places, percept),
+        )
+
+    # -- files ---------------------------------------------------------------------------------------------
+
+    def state(self, arrays: Arrays) -> dict[str, Any]:
+        """All that the next steps depend on: plain JSON values; arrays go into `arrays`."""
+        tracker, mirror = self.tracker.state(), self.mirror
+        arrays |= {f"tracker.{name}": values for name, values in tracker[1].items()}
+        places = [[number, place] for number, place in mirror.places.items()]
+        followed = next((k for k, h in enumerate(self.tracker.hypotheses) if h is self.followed), None)
+        own = {"places": places, "missed": sorted(mirror.missed), "followed": followed, "moved": self.moved}
+        return {"tracker": tracker[0], **own}
+
+    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Take over what `state` gave.
+
+        Raises:
+            CogmapError: it is damaged, or of another map.
+        """
+        prefix = "tracker."
+        own = {name.removeprefix(prefix): arrays[name] for name in arrays if name.startswith(prefix)}
+        self.tracker = Tracker.restored(self.sensing.scheme, self.tracker.options, (state["tracker"], own))
+        places = {int(number): int(place) for number, place in state["places"]}
+        self.followed = None if state["followed"] is None else self.tracker.hypotheses[int(state["followed"])]
+        if self.followed is not None:
+            self.mirror.restore(self.followed, places, missed=map(int, state["missed"]))
+        self.moved = bool(state["moved"])
+
+    def know(self, here: int, *, step: int) -> None:
+        """Begin with what the map says, the agent being in `here`."""
+        sensing, (records, places) = self.sensing, records_of(self._map, self.sensing)
+        number = {place: number for number, place in places.items()}
+        self.tracker = tracker_knowing(
+            sensing.scheme,
+            records,
+            here=number[here],
+            time=max(step, len(records)),
+            labels=sensing.labels(),
+            options=self.tracker.options,
+        )
+        self.followed = self.tracker.best
+        self.mirror.restore(self.followed, places)
+
+    def _weights(self) -> list[tuple[Hypothesis, float]]:
+        others = [h for h in self.tracker.hypotheses if h is not self.followed]
+        return [(h, exp(h.weight)) for h in (self._now, *others)]

@@ -1,0 +1,46 @@
+"""A tracker that begins with a map that is known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from .chances import Chances
+from .extending import shared
+from .hypothesis import Hypothesis
+from .options import TrackerOptions
+from .records import NOWHERE, Place
+from .scheme import WayScheme
+from .tracker import Tracker
+
+
+def tracker_knowing(
+    scheme: WayScheme,
+    places: Mapping[int, Place],
+    *,
+    here: int,
+    time: int,
+    labels: Sequence[int],
+    options: TrackerOptions | None = None,
+) -> Tracker:
+    """A tracker with one hypothesis: these places, by number, what was read there, and where their ways lead.
+
+    Args:
+        scheme: the ways.
+        places: numbers are times of first visits, below `time`.
+        here: the number of the place where the agent is.
+        time: of the next step.
+        labels: how many labels each sensor has shown.
+        options: how many hypotheses are kept.
+    """
+    h = Hypothesis(scheme)
+    h.chances = Chances(h.counts, [n + 1 for n in labels], size=max(len(places), 1))
+    for number, place in places.items():
+        h.put(number, place)
+    for number in places:
+        h.put(number, shared(h, number, h.places[number]))
+    links = {frozenset((k, way.to)) for k, place in places.items() for way in place.ways if way.to != NOWHERE}
+    h.links, h.here = len(links), here
+    h.settle()
+    tracker = Tracker(scheme, options)
+    tracker.hypotheses, tracker.time, tracker.labels = [h], time, tuple(n + 1 for n in labels)
+    return tracker
