@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,28 +26,35 @@ from ..model import (
     Sensor,
     Slice,
     Whereabouts,
-    is_number,
     map_state,
+    release,
     restore_map,
     take_slice,
     window_graph,
 )
-from ..planning import LocalCache, Plan, Planner, Preferences
+from ..planning import LocalCache, Plan, Planner
 from . import storage
+from .following import Followed, follow
 from .hypotheses import MapHypothesis
+from .known_map import KnownMap
 from .mapper import Mapper
 from .packing import Arrays, pack, unpacked_state
 from .parts import made_of, parts_of
 from .perceiving import checked, percept_of
+from .preferring import given_preferences, weighed
 from .recognition import Recognition
 from .settings import Settings
+from .starting import records_of_graph
 from .state import Choice, GivenPreferences, State
 from .trace import StepRecord, record_of
+from .wholeness import IN_STEP, Before, before_step, undo_step
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+T = TypeVar("T")
 
 Seed = int | np.random.SeedSequence | None
-
-LARGEST = 1e9
-"""Of log preferences, in nats."""
 
 KEEP = 10_000
 """Steps of which the trace and the log of growth keep everything, unless told otherwise."""
@@ -61,13 +68,18 @@ class Agent:
     is in the world.
 
     Args:
-        motions: names and displacements of the actions: `world.motions`, or a mapping name -> displacement.
+        motions: names and displacements of the actions: `world.motions`, or a mapping name -> displacement; may be left
+            out where the map says them.
         sensors: what it senses; `Sight("sight")` and `Ways()` unless given.
         pose: how places lie to each other; `Lattice()` unless given.
         growth: when places are added; `PredictedGrowth()` unless given.
         planner: how it plans: policies, terms of G, choice; `Planner()` unless given.
         settings: every number; see `Settings`.
         seed: of the generator that breaks ties and draws policies.
+        map: what is known beforehand: a networkx graph of places, or a file of one (node-link JSON or GraphML). Nodes
+            have what each sensor senses there under its name, and maybe a `position`; edges say in `way` which action
+            they are. Ways that it does not have are shut. Places get numbers in its order; where in it the agent wakes
+            up it finds out.
         keep: of so many last steps at least `trace` has every record and `map.growth` every event, of those before it
             what is still there; None of all of them, however many.
 
@@ -84,7 +96,7 @@ class Agent:
 
     def __init__(
         self,
-        motions: MotionSpec | Mapping[str, Sequence[int]],
+        motions: MotionSpec | Mapping[str, Sequence[int]] | None = None,
         *,
         sensors: Iterable[Sensor] | None = None,
         pose: Pose | None = None,
@@ -93,10 +105,19 @@ class Agent:
         settings: Settings | None = None,
         seed: Seed = None,
         keep: int | None = KEEP,
+        map: nx.Graph[Any] | str | PathLike[str] | None = None,
     ) -> None:
+        known = None if map is None else KnownMap.of(map)
+        if motions is None:
+            if known is None:
+                raise CogmapError("agent: it has no motions; give world.motions, or {name: displacement}")
+            motions = known.motions
         self._assemble(motions, sensors, pose, growth, planner, settings or Settings(), seed)
         self.keep = keep
-        self.growth.begin(self.map, step=0)
+        if known is None:
+            self.growth.begin(self.map, step=0)
+        else:
+            self._recognition.begin_with(records_of_graph(known, self.map, self._recognition.sensing))
 
     def _assemble(
         self,
@@ -139,6 +160,7 @@ class Agent:
         self._mapper = Mapper(self.map, self.growth, self._recognition.mirror.ways, settings)
         self._cache = LocalCache(self.map, settings.look_ahead)
         self._plan: Plan | None = None
+        self._torn: str | None = None
         self.planner.check(self.map.motions, settings.look_ahead)
         self._state = State(deque[Slice](maxlen=settings.window + 1))
 
@@ -210,48 +232,56 @@ class Agent:
 
     @property
     def graph(self) -> FactorGraph:
-        """The factor graph of the current window."""
-        return window_graph(self.map, self.window)
+        """The factor graph of the current window; while it is open which map is right, with that as a variable."""
+        graph = window_graph(self.map, self.window)
+        return self._recognition.asked(graph, step=self.steps - 1) if self.steps else graph
 
     def prefer(
-        self, sights: Mapping[Hashable, float] | None = None, *, places: Mapping[int, float] | None = None
+        self,
+        sights: Mapping[Hashable, float] | None = None,
+        *,
+        places: Mapping[int, float] | None = None,
+        sensors: Mapping[str, Mapping[Hashable, float]] | None = None,
     ) -> None:
         """Set log preferences over all others, in nats (before `goal_weight`); none explores.
 
         Args:
-            sights: by label. Labels never met are allowed: until they are, "something new" carries the hope.
+            sights: by label of the first sensor that sees labels. Labels never met are allowed: until they are,
+                "something new" carries the hope.
             places: by number of the place in the map, such as `map.place_at(position)`.
+            sensors: by name of a sensor and label: `{"smell": {"cheese": 4.0}}`.
 
         Raises:
-            CogmapError: no mapping, a preference that is no finite number, or a place that the map does not have.
+            CogmapError: no mapping, a preference that is no finite number, or a place or a sensor that the map does not
+                have.
         """
-        for given in (sights, places):
-            if not isinstance(given, Mapping | None):  # pyright: ignore[reportUnnecessaryIsInstance]
-                kind = type(given).__name__
-                raise CogmapError(f"agent: preferences are a {kind}; give a mapping to log preferences in nats")
-        sights, places = dict(sights or {}), dict(places or {})
-        for wanted, value in (*sights.items(), *places.items()):
-            if not is_number(value, -LARGEST, LARGEST):
-                raise CogmapError(
-                    f"agent: preference {value!r} of {wanted!r} is not a finite number; give a log preference in nats, "
-                    f"{LARGEST:g} at most"
-                )
-        for place in places:
-            if place not in self.map.places:
-                raise CogmapError(f"agent: no place {place!r} to prefer; places are 0 to {len(self.map.places) - 1}")
-        self._state.preferences = GivenPreferences(sights, places)
+        self._state.preferences = given_preferences(sights, places, sensors, self.map)
+
+    def follow(self, walk: Iterable[Mapping[str, Any]]) -> Iterator[Followed]:
+        """Be taken along a walk that somebody recorded; see `following.follow`."""
+        return follow(self, walk)
+
+    def moved(self) -> None:
+        """Be told that it was moved: the next observation is from anywhere, whatever action was answered last."""
+        self._state.told = True
 
     def step(self, observation: Mapping[str, Any]) -> int:
         """Take in one observation and answer with the index of the next action: `perceive`, `plan` and `act` in a row.
 
+        It is taken whole or not at all: whatever goes wrong in it, Ctrl-C too, the agent is as it was before.
+
         Raises:
             CogmapError: the observation lacks a key, or a value is none that its sensor could have sensed.
         """
-        self.perceive(observation)
-        return self.act()
+
+        def step() -> int:
+            self.perceive(observation)
+            return self.act()
+
+        return self._whole(step)
 
     def perceive(self, observation: Mapping[str, Any]) -> Belief:
-        """Take in one observation: infer where it is, learn, and let the map grow.
+        """Take in one observation: infer where it is, learn, and let the map grow; whole or not at all, as `step`.
 
         Where another action than the one answered led here, the observation says so: `taken`, by name or index.
 
@@ -259,13 +289,20 @@ class Agent:
             CogmapError: the observation lacks a key, a value is none that its sensor could have sensed, or nothing
                 was done since the last one.
         """
+        return self._whole(lambda: self._perceive(observation))
+
+    def _perceive(self, observation: Mapping[str, Any]) -> Belief:
         state, values = self._state, checked(observation, self.map)
-        if not state.acted:
-            if "taken" not in values:
+        wakes = not state.steps and self._recognition.followed is not None  # in a map that was given, somewhere
+        if wakes or state.told:
+            values["moved"] = True
+        if wakes or not state.acted:
+            if "taken" not in values and not values.get("moved"):
                 raise CogmapError(
                     "agent: it has not acted on the last observation; call act(), or say what was 'taken'"
                 )
-            state.action = values["taken"]
+            state.action = values.get("taken", self.map.motions.stay)
+        state.told = False
         state.begun, state.revised = len(self.map.changes), False
         self.map.grow_time(step=state.steps)
         percept = percept_of(values, self.map, action=state.action, open_=state.open, step=state.steps)
@@ -275,7 +312,6 @@ class Agent:
         state.percept, state.acted, state.choice, self._plan = percept, False, None, None
         state.open = self._recognition.open(percept)
         state.steps += 1
-        self.map.growth.tidy()
         return self.belief
 
     @property
@@ -285,6 +321,9 @@ class Agent:
         Raises:
             CogmapError: it has perceived nothing yet.
         """
+        return self._plan or self._whole(self._think)
+
+    def _think(self) -> Plan:
         if self._plan is None:
             self._require_plan()
             choice = self._state.choice
@@ -300,15 +339,18 @@ class Agent:
         return self._plan
 
     def act(self) -> int:
-        """Answer the last observation with the index of an action: the first of the plan's policy.
+        """Answer the last observation with the index of an action: the first of the plan's policy; as `step`.
 
         Raises:
             CogmapError: it has perceived nothing since the last action.
         """
+        return self._whole(self._act)
+
+    def _act(self) -> int:
         if self._state.acted:
             raise CogmapError("agent: it has perceived nothing since its last action; call perceive(observation) first")
         plan, state = self.plan, self._state
-        percept, sensors = state.percept, self.map.sensors
+        percept, sensors = state.percept or Percept(), self.map.sensors
         sensed = {name: sensors[name].label(reading) for name, reading in percept.readings.items() if name != "open"}
         record = record_of(
             state.steps - 1,
@@ -339,6 +381,45 @@ class Agent:
         """
         storage.write(path, *self.state())
 
+    def _check_whole(self) -> None:
+        if self._torn is not None:
+            raise CogmapError(f"agent: it is torn, {self._torn}; load it from a file, or make another")
+
+    def _whole(self, work: Callable[[], T]) -> T:
+        """Do it, or leave everything as it was; what is done within it is part of it."""
+        if self._torn is IN_STEP:
+            return work()
+        self._check_whole()
+        map_, state = self.map, self._state
+        before = before_step(map_, self._recognition, state, self._plan, self.rng, len(self.trace))
+        try:
+            self._torn = IN_STEP
+            result = work()
+            self._torn = None
+            release(map_)
+            return result
+        except BaseException as error:
+            if self._torn is not None:
+                self._go_back(before, error)
+            raise
+
+    def _go_back(self, before: Before, error: BaseException) -> None:
+        """As it was before; a second interrupt in the middle is waited out."""
+        self._torn = f"left in the middle of a step by a {type(error).__name__}"
+        for _ in range(3):
+            try:
+                undo_step(before, self.map, self._recognition)
+                self._state, self._plan, self.rng = before.state, before.plan, before.rng
+                self._cache = LocalCache(self.map, self.settings.look_ahead)
+                del self.trace[before.records :]
+                self._torn = None
+                return
+            except CogmapError as why:
+                self._torn = f"{self._torn}, and cannot go back ({why})"
+                return
+            except KeyboardInterrupt:  # it is raised in the end
+                continue
+
     @classmethod
     def load(
         cls,
@@ -348,6 +429,7 @@ class Agent:
         pose: Pose | None = None,
         growth: Growth | None = None,
         planner: Planner | None = None,
+        settings: Settings | None = None,
     ) -> Agent:
         """The agent that `save` wrote; it walks on exactly as that one would have.
 
@@ -355,18 +437,26 @@ class Agent:
             path: of the file.
             sensors: new ones like those that it was made with, where some are not of this library.
             pose, growth, planner: the same.
+            settings: others than those that it was saved with, to go by from now on.
 
         Raises:
             CogmapError: no such file, or it is no saved map, truncated, or from a newer schema.
         """
         with storage.reading(path) as (header, arrays):
-            return cls.from_state(header, arrays, sensors=sensors, pose=pose, growth=growth, planner=planner)
+            return cls.from_state(
+                header, arrays, sensors=sensors, pose=pose, growth=growth, planner=planner, settings=settings
+            )
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
-        """Everything that the next steps depend on: a JSON header and arrays (the trace is left out)."""
+        """Everything that the next steps depend on: a JSON header and arrays (the trace is left out).
+
+        Raises:
+            CogmapError: the agent is torn, or a label cannot be written.
+        """
+        self._check_whole()
         map_, arrays = map_state(self.map)
         header = {
-            "motions": {"names": self.map.motions.names, "displacements": self.map.motions.displacements},
+            "motions": _told(self.map.motions),
             "settings": self.settings.to_dict(),
             "parts": self.parts,
             "rng": self.rng.bit_generator.state,
@@ -386,12 +476,14 @@ class Agent:
         pose: Pose | None = None,
         growth: Growth | None = None,
         planner: Planner | None = None,
+        settings: Settings | None = None,
     ) -> Agent:
         """The agent that `state` took apart; see `load`."""
         agent = cls.__new__(cls)
         made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth, planner=planner)
-        motions = dict(zip(header["motions"]["names"], header["motions"]["displacements"], strict=True))
-        agent._assemble(motions, *made, Settings.from_dict(header["settings"]), None)
+        motions = _motions(header["motions"])
+        saved = Settings.from_dict(header["settings"])
+        agent._assemble(motions, *made, settings or saved, None)
         agent.keep = KEEP
         restore_map(agent.map, header["map"], arrays)
         agent.rng.bit_generator.state = header["rng"]
@@ -410,12 +502,13 @@ class Agent:
     def _infer(self, percept: Percept) -> None:
         """Where it is, in the map as it is."""
         state = self._state
-        if state.belief is None:
+        message = self._recognition.start if state.belief is None else state.belief.message
+        if message is None:
             state.belief = begin(self.map, 0, percept)
             return
-        if percept.action is not None and percept.opened and self._located:
+        if percept.action is not None and percept.opened and state.belief is not None and self._located:
             self._mapper.enter(Whereabouts(state.belief.places), percept.action, step=state.steps)
-        belief = advance(self.map, state.belief.message, percept, support=self.settings.filter.support)
+        belief = advance(self.map, message, percept, support=self.settings.filter.support)
         sure = belief.message.certainty >= self.settings.certainty
         state.belief = belief.committed() if sure and not self.map.visited[belief.place] else belief
 
@@ -483,23 +576,14 @@ class Agent:
             open_=self._state.open or (True,) * len(self.map.motions),
             look_ahead=settings.look_ahead,
             rng=rng,
-            preferences=self._weighted(preferences),
+            preferences=weighed(preferences, self.map, settings),
             precision=settings.precision,
             discount=settings.discount,
             information_weight=settings.information_weight,
             starts=settings.starts,
             cache=self._cache,
+            structure=self._recognition.question,
         )
-
-    def _weighted(self, preferences: GivenPreferences) -> Preferences:
-        weight = self.settings.goal_weight
-        sights: dict[int, float] = {}
-        for label, value in preferences.sights.items():
-            known = self.map.sights.find(label)
-            key = -1 if known is None else known
-            sights[key] = max(sights.get(key, -np.inf), weight * value)
-        places = {place: weight * value for place, value in preferences.places.items()}
-        return Preferences(sights=sights, places=places, collision_cost=self.settings.collision_cost)
 
 
 def _generator(seed: Seed) -> np.random.Generator:
@@ -507,3 +591,15 @@ def _generator(seed: Seed) -> np.random.Generator:
         return np.random.default_rng(seed)
     except (TypeError, ValueError) as error:
         raise CogmapError(f"agent: seed is {seed!r}; use a whole number of 0 or more, or None") from error
+
+
+def _told(motions: Motions) -> dict[str, Any]:
+    """Actions as plain JSON values; where they have no displacements, who undoes whom is said instead."""
+    reverse = {} if motions.placed else {"reverse": motions.inverse}
+    return {"names": motions.names, "displacements": motions.displacements, **reverse}
+
+
+def _motions(told: Mapping[str, Any]) -> Motions:
+    if "reverse" in told:
+        return Motions(tuple(told["names"]), (), tuple(told["reverse"]))
+    return Motions.of(dict(zip(told["names"], told["displacements"], strict=True)))

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..inference import Belief
+from ..model import CognitiveMap, Slice
 from ..planning import Plan
-from .agent import Agent
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +33,32 @@ class Followed:
     probability: NDArray[np.float64]
 
 
-def follow(agent: Agent, walk: Iterable[Mapping[str, Any]]) -> Iterator[Followed]:
+class Perceiver(Protocol):
+    """What can be taken along: an `Agent`."""
+
+    map: CognitiveMap
+
+    @property
+    def steps(self) -> int:
+        """Observations taken in so far."""
+        ...
+
+    @property
+    def plan(self) -> Plan:
+        """What it considers."""
+        ...
+
+    @property
+    def window(self) -> Sequence[Slice]:
+        """The last steps."""
+        ...
+
+    def perceive(self, observation: Mapping[str, Any]) -> Belief:
+        """Take in one observation."""
+        ...
+
+
+def follow(agent: Perceiver, walk: Iterable[Mapping[str, Any]]) -> Iterator[Followed]:
     """Take the agent along a recorded walk, and say at each step how probable it holds each action.
 
     The agent learns as if it walked itself; what it would have done is never carried out.
@@ -48,7 +73,7 @@ def follow(agent: Agent, walk: Iterable[Mapping[str, Any]]) -> Iterator[Followed
     for observation in walk:
         belief = agent.perceive(observation)
         plan, stay = agent.plan, agent.map.motions.stay
-        open_ = agent.window[-1].percept.open or (True,) * len(agent.map.motions)
+        open_ = agent.window[-1].percept.passable or (True,) * len(agent.map.motions)
         ways = tuple(action for action, is_open in enumerate(open_) if is_open and action != stay)
         probability = np.zeros(len(open_))
         probability[list(ways)] = plan.action_probability[list(ways)]

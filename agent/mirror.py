@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 from ..inference import NOWHERE, Hypothesis, Place, open_probability
 from ..model import CognitiveMap, Growth, Position, Ways, Whereabouts
@@ -20,6 +21,26 @@ Doors = tuple[bool | float | None, ...]
 def passable(doors: Doors) -> tuple[bool, ...]:
     """For each action whether something may lie beyond: where nothing is known of its way, it may."""
     return tuple(door is None or door > 0.5 for door in doors)
+
+
+class Journal(dict[int, Any]):
+    """A dict that can go back to how it was when it began to take notes; nothing is ever taken out of it."""
+
+    notes: list[tuple[int, Any]] | None = None
+
+    def __setitem__(self, key: int, value: Any) -> None:
+        if self.notes is not None:
+            self.notes.append((key, self.get(key)))
+        super().__setitem__(key, value)
+
+    def go_back(self) -> None:
+        """Forget what was set since."""
+        for key, old in reversed(self.notes or ()):
+            if old is None:
+                self.pop(key, None)
+            else:
+                super().__setitem__(key, old)
+        self.notes = None
 
 
 class Mirror:
@@ -271,6 +292,24 @@ class Mirror:
             if known.walks and known.to != NOWHERE and open_probability(h, number, way) > 0.5:
                 for _ in range(min(known.walks, WALKS)):
                     map_.transitions.learn(place, action, self.places[known.to], 1.0)
+
+    # -- going back ----------------------------------------------------------------------------------------
+
+    def savepoint(self) -> tuple[Journal, Journal, frozenset[int]]:
+        """What `go_back` needs: which place is which, and what was known of each."""
+        if not isinstance(self.places, Journal):
+            self.places = Journal(self.places)
+        if not isinstance(self._records, Journal):
+            self._records = Journal(self._records)
+        self.places.notes, self._records.notes = [], []
+        return self.places, self._records, frozenset(self.missed)
+
+    def go_back(self, point: tuple[Journal, Journal, frozenset[int]]) -> None:
+        """Be as it was."""
+        self.places, self._records, missed = point
+        self.places.go_back()
+        self._records.go_back()
+        self.missed = set(missed)
 
     # -- files ---------------------------------------------------------------------------------------------
 

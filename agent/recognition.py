@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import Belief, Hypothesis, Message, RateOf, Tracker, TrackerOptions, rates_of, tracker_knowing
-from ..model import CognitiveMap, Growth, Percept
+from ..inference import Belief, Hypothesis, Message, Place, RateOf, Tracker, TrackerOptions, rates_of, tracker_knowing
+from ..model import CognitiveMap, FactorGraph, Growth, Percept
 from .hypotheses import MapHypothesis, compared
 from .knowing import records_of
 from .mirror import Doors, Mirror, passable
+from .question import with_question
 from .sensing import Sensing
+from .structure import OpenQuestion
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -101,6 +103,23 @@ class Recognition:
         hypotheses = self.tracker.hypotheses
         return compared(self._now, hypotheses, self.mirror) if hypotheses else ()
 
+    @property
+    def question(self) -> OpenQuestion | None:
+        """What is worth telling apart; None where nothing is, or new places are left to see, which tell as well."""
+        hypotheses = self.tracker.hypotheses
+        if len(hypotheses) == 1 or not self._map.visited.all():
+            return None
+        return OpenQuestion(hypotheses, self.sensing.ways)
+
+    def asked(self, graph: FactorGraph, *, step: int) -> FactorGraph:
+        """The graph of the window with the question which hypothesis is right, if that is open."""
+        hypotheses = self.tracker.hypotheses
+        if len(hypotheses) == 1:
+            return graph
+        weights = [exp(h.weight) for h in hypotheses]
+        places = [self.mirror.place(h) for h in hypotheses]
+        return with_question(graph, weights, places, followed=hypotheses.index(self._now), step=step)
+
     def missed(self) -> None:
         """The map was not taught the last step."""
         self.mirror.miss(self._now, self._now.touched)
@@ -142,6 +161,18 @@ class Recognition:
             likelihoods=map_.likelihoods(places, percept),
         )
 
+    # -- going back ----------------------------------------------------------------------------------------
+
+    def savepoint(self) -> tuple[Any, ...]:
+        """What `go_back` needs to undo the next step."""
+        return self.tracker, self.tracker.checkpoint(), self.followed, self.moved, self.mirror.savepoint()
+
+    def go_back(self, point: tuple[Any, ...]) -> None:
+        """Be as it was before that step, wherever it was broken off."""
+        self.tracker, checkpoint, self.followed, self.moved, mirror = point
+        self.tracker.rollback(checkpoint)
+        self.mirror.go_back(mirror)
+
     # -- files ---------------------------------------------------------------------------------------------
 
     def state(self, arrays: Arrays) -> dict[str, Any]:
@@ -168,20 +199,31 @@ class Recognition:
             self.mirror.restore(self.followed, places, missed=map(int, state["missed"]))
         self.moved = bool(state["moved"])
 
+    @property
+    def start(self) -> Message | None:
+        """Where an agent that begins with a map is thought to be until it has seen something; None without a map."""
+        if self.followed is None:
+            return None
+        return Message.sure(self.place, int(self._map.pose.of(np.array([self.place]))[0]))
+
+    def begin_with(self, records: Mapping[int, Place]) -> None:
+        """Begin with places that are known beforehand; the map says what they say."""
+        self._begin(records, here=0, time=len(records))
+        self.follow(step=0)
+
     def know(self, here: int, *, step: int) -> None:
         """Begin with what the map says, the agent being in `here`."""
-        sensing, (records, places) = self.sensing, records_of(self._map, self.sensing)
+        records, places = records_of(self._map, self.sensing)
         number = {place: number for number, place in places.items()}
+        self._begin(records, here=number[here], time=max(step, len(records)))
+        self.mirror.restore(self._now, places)
+
+    def _begin(self, records: Mapping[int, Place], *, here: int, time: int) -> None:
+        labels, options = self.sensing.labels(), self.tracker.options
         self.tracker = tracker_knowing(
-            sensing.scheme,
-            records,
-            here=number[here],
-            time=max(step, len(records)),
-            labels=sensing.labels(),
-            options=self.tracker.options,
+            self.sensing.scheme, records, here=here, time=time, labels=labels, options=options
         )
         self.followed = self.tracker.best
-        self.mirror.restore(self.followed, places)
 
     def _weights(self) -> list[tuple[Hypothesis, float]]:
         others = [h for h in self.tracker.hypotheses if h is not self.followed]

@@ -15,6 +15,7 @@ class Sensing:
 
     Attributes:
         actions: the action of each way.
+        ways: the way of each action that leads somewhere.
         scheme: the ways.
     """
 
@@ -22,9 +23,9 @@ class Sensing:
         self._model = model
         motions = model.motions
         self.actions = tuple(action for action in range(len(motions)) if action != motions.stay)
-        self._way = {action: way for way, action in enumerate(self.actions)}
+        self.ways = {action: way for way, action in enumerate(self.actions)}
         undone = [motions.inverse[action] for action in self.actions]
-        inverse = tuple(self._way[action] for action in undone) if all(action >= 0 for action in undone) else None
+        inverse = tuple(self.ways[action] for action in undone) if all(action >= 0 for action in undone) else None
         placed = model.pose.origin is not None
         self.scheme = WayScheme(
             max(len(self.actions), 1),
@@ -49,11 +50,11 @@ class Sensing:
         readings, open_ = percept.readings, percept.ways(len(self._model.motions))
         sights = tuple(readings.get(sensor.name) for sensor in self._model.sights_sensed) or (None,)
         ways = tuple(open_[action] for action in self.actions) or (None,)
-        stayed = percept.action is None or percept.outcome == "blocked"
+        action = None if percept.outcome == "blocked" else percept.action
         return Sensed(
             sights,
             ways,
-            None if stayed else self._way.get(percept.action),
+            None if action is None else self.ways.get(action),
             certain=percept.taken or percept.outcome == "arrived",
             told=percept.moved,
             others=self._told(percept, place) if any(name in readings for name in self._others) else None,

@@ -20,10 +20,12 @@ class GivenPreferences:
     Attributes:
         sights: by label.
         places: by number of the place in the map.
+        sensors: by name of a sensor and label, of the others than the first.
     """
 
     sights: Mapping[Hashable, float] = field(default_factory=dict[Hashable, float])
     places: Mapping[int, float] = field(default_factory=dict[int, float])
+    sensors: Mapping[str, Mapping[Hashable, float]] = field(default_factory=dict[str, Mapping[Hashable, float]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +69,7 @@ class State:
         percept: what the last step brought; None before the first, and where an early version wrote the file.
         begun: where the log of changes was when the present step began.
         revised: whether it changed its mind at the present step: the map, or where it is in it.
+        told: it was told that it was moved, since the last step.
     """
 
     window: deque[Slice]
@@ -80,3 +83,4 @@ class State:
     percept: Percept | None = None
     begun: int = 0
     revised: bool = False
+    told: bool = False

@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import islice
-from typing import Any
 
 import numpy as np
 
@@ -77,7 +76,6 @@ class Trail:
     def __init__(self) -> None:
         self.rooms: list[Place] = []
         self.wrong = 0
-        self._been: dict[int, Counter[Place]] = {}
 
     def __call__(self, moment: Moment) -> None:
         """Look at a choice."""
@@ -85,17 +83,12 @@ class Trail:
         self.rooms.append(room)
         if isinstance(agent, Agent):
             belief = agent.belief
-            self._been.setdefault(belief.place, Counter())[room] += 1
             self.wrong += belief.certainty >= CERTAIN and self.room(agent, belief.place) != room
 
     def room(self, agent: Agent, place: int) -> Place | None:
-        """The room in which a place was visited most; None if it never was."""
-        steps_in: Any = getattr(agent, "steps_in", None)
-        if steps_in is None:
-            been = self._been.get(place, Counter())
-        else:  # the best hypothesis knows better than what was believed at the time
-            first = agent.steps - len(self.rooms)
-            been = Counter(self.rooms[step - first] for step in steps_in(place) if step >= first)
+        """The room in which a place was visited most, as the agent now believes; None if it never was."""
+        first = agent.steps - len(self.rooms)
+        been = Counter(self.rooms[step - first] for step in agent.steps_in(place) if step >= first)
         return been.most_common(1)[0][0] if been else None
 
     def verdict(self, agent: Agent, chart: Chart) -> Verdict:

@@ -65,7 +65,8 @@ def kidnap(world: World, seed: int = 0, **options: Unpack[Options]) -> KidnapRun
         return KidnapRun(seed, session.start)
     places, moved_to = len(agent.map.places), session.displace(elsewhere=True)
     steps, wrong = _recover(session, agent)
-    intact = len(agent.map.places) == places and session.truth.learned(agent.map)
+    known = session.truth.learned(agent.map) or session.trail.verdict(agent, chart_of(world)).map_right
+    intact = len(agent.map.places) == places and known
     return KidnapRun(seed, session.start, session.steps, moved_to, steps is not None, steps, wrong, intact)
 
 
@@ -109,7 +110,8 @@ def _recover(session: Session, agent: Agent) -> tuple[int | None, int]:
 
     def watch(moment: Moment) -> bool:
         nonlocal recovered, wrong
-        right = agent.belief.place == session.truth.place(agent.map, place_of(moment.info))
+        session.trail(moment)
+        right = session.truth.right(agent, place_of(moment.info), session.trail)
         wrong += agent.certain and not right
         recovered = moment.step if recovered is None and agent.certain and right else recovered
         return moment.step == (session.most if recovered is None else recovered + AFTER)

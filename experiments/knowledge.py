@@ -30,17 +30,18 @@ class Truth:
         start: the place that the agent takes as its origin.
 
     Attributes:
+        chart: as given.
         number: of each place, in the order of the chart.
     """
 
     def __init__(self, chart: Chart, start: Place) -> None:
         self.number = {place: i for i, place in enumerate(chart.places)}
-        self._chart, self._start = chart, start
+        self.chart, self._start = chart, start
 
     @cached_property
     def _ahead(self) -> list[list[int]]:
         """Where each action leads from each place."""
-        successors = map(self._chart.successors, self._chart.places)
+        successors = map(self.chart.successors, self.chart.places)
         return [[self.number[other] for other in row.values()] for row in successors]
 
     @cached_property
@@ -52,14 +53,19 @@ class Truth:
     @cached_property
     def _offset(self) -> dict[int, Offset]:
         """Where each place lies from the start, by its number; empty where the moves do not fit into a lattice."""
-        if isinstance(self._chart, Maze):  # it always does
-            return {i: (r - self._start[0], c - self._start[1]) for i, (r, c) in enumerate(self._chart.places)}
-        return _offsets(self._ahead, self.number[self._start], self._chart.motions.displacements)
+        if isinstance(self.chart, Maze):  # it always does
+            return {i: (r - self._start[0], c - self._start[1]) for i, (r, c) in enumerate(self.chart.places)}
+        return _offsets(self._ahead, self.number[self._start], self.chart.motions.displacements)
 
     def place(self, map_: CognitiveMap, place: Place) -> int | None:
         """The place of a map that stands for a true one; None if there is none."""
         offset = self._offset.get(self.number[place])
         return None if offset is None else map_.place_at(offset)
+
+    def right(self, agent: Agent, place: Place, trail: Trail) -> bool:
+        """Whether an agent takes itself to be in the place that stands for `place`, or was visited there."""
+        stands = self.place(agent.map, place)
+        return stands == agent.belief.place if stands is not None else trail.room(agent, agent.belief.place) == place
 
     def visited(self, map_: CognitiveMap) -> bool:
         """Whether the map has a visited place for every true one."""
@@ -124,10 +130,9 @@ class Knowledge:
         complete: steps until both held at once. None of what never was, as with the others.
     """
 
-    def __init__(self, truth: Truth, chart: Chart, watch: Watch | None = None, *, on: bool = False) -> None:
-        self._truth, self._chart, self._watch, self._on = truth, chart, watch, on
+    def __init__(self, truth: Truth, trail: Trail, watch: Watch | None = None, *, on: bool = False) -> None:
+        self._truth, self.trail, self._watch, self._on = truth, trail, watch, on
         self._path, self._left = list[int](), set(truth.number.values())
-        self.trail = Trail()
         self.visit_all: int | None = None
         self.learn: int | None = None
         self.complete: int | None = None
@@ -152,7 +157,7 @@ class Knowledge:
             return not self._left, learned
         if self._left or self._truth.visited(walker.map):
             return not self._left, learned
-        right = self.trail.verdict(walker, self._chart).map_right
+        right = self.trail.verdict(walker, self._truth.chart).map_right
         return right, learned or right
 
 

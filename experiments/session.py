@@ -17,6 +17,7 @@ from ..agent import Settings
 from ..model import CogmapError
 from ..worlds import CanDisplace, Chart, HasChart, ListedWays, Place, WorldError, offered, place_of, world_of
 from ..worlds import World as OfMotions
+from .judging import Trail
 from .knowledge import Knowledge, Truth
 from .parts import Maker, Parts
 from .pool import map_seeds
@@ -66,6 +67,7 @@ class Session:
         fixed: moves that it takes exploring, if that is settled.
         steps: in which it explored the world; None where it has not, or gave up.
         truth: to compare its map with.
+        trail: where it was while it explored.
     """
 
     world: Any
@@ -77,6 +79,7 @@ class Session:
     fixed: int | None = None
     steps: int | None = field(init=False, default=None)
     truth: Truth = field(init=False)
+    trail: Trail = field(init=False, default_factory=Trail)
     _seen: Seen = field(init=False)
 
     def __post_init__(self) -> None:
@@ -103,7 +106,7 @@ class Session:
 
     def explore(self, watch: Watch | None = None) -> tuple[Run, Knowledge]:
         """Go on until all is known, for `most` moves at most; or for `fixed` moves, whatever is known by then."""
-        knowledge = Knowledge(self.truth, chart_of(self.world), watch, on=self.fixed is not None)
+        knowledge = Knowledge(self.truth, self.trail, watch, on=self.fixed is not None)
         done = self.run((self.fixed or self.most) + 1, knowledge)
         self.steps = knowledge.complete
         return done, knowledge

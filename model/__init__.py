@@ -82,6 +82,7 @@ from .percept import OUTCOMES, Outcome, Percept
 from .periods import Periods, reduced, with_period
 from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file, unpack_gzip
+from .savepoint import Savepoint, go_back, release, savepoint
 from .slices import Slice, take_slice, window_graph
 from .unseen import UNSEEN, Unseen
 from .updates import ParameterUpdate, updates
@@ -143,6 +144,7 @@ __all__ = [
     "PredictedGrowth",
     "Priors",
     "Rates",
+    "Savepoint",
     "Sensor",
     "Sight",
     "Slice",
@@ -171,6 +173,7 @@ __all__ = [
     "distinct",
     "encode",
     "equation",
+    "go_back",
     "growth_between",
     "growth_table",
     "how_known",
@@ -195,9 +198,11 @@ __all__ = [
     "read_uai_evidence",
     "read_xmlbif",
     "reduced",
+    "release",
     "restore_map",
     "safe",
     "save_graph",
+    "savepoint",
     "shown",
     "sparse_values",
     "table",

@@ -47,18 +47,6 @@ class Store(Protocol):
         """Whether `put` could take this, where there are so many places."""
         ...
 
-    def savepoint(self) -> Any:
-        """What `go_back` needs besides the log of changes."""
-        ...
-
-    def level(self) -> None:
-        """Be sound enough to be written to, wherever it was left."""
-        ...
-
-    def go_back(self, point: Any) -> None:
-        """Be as it was, once the old values are back: as long, with all that follows from them."""
-        ...
-
     def touched(self, where: Any) -> Iterable[int] | None:
         """The places whose columns a change at `where` is about; None: any of them."""
         ...

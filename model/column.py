@@ -88,9 +88,6 @@ class Column:
         """How many rows it has."""
         return self._length
 
-    def level(self) -> None:
-        """Nothing: room is made in one go."""
-
     def go_back(self, point: int) -> None:
         """Be as long as it was."""
         self.resize(point)

@@ -259,15 +259,6 @@ class GenerativeModel:
         """Whether a place exists, from a file."""
         return bool(numbers[0])
 
-    def savepoint(self) -> None:
-        """Nothing: see `savepoint.savepoint`."""
-
-    def level(self) -> None:
-        """Nothing."""
-
-    def go_back(self, point: None) -> None:
-        """Nothing."""
-
     def fits(self, where: Any, value: Any, places: int) -> bool:
         """Whether `put` can take this: the next place comes, or the last one goes."""
         return where == (places if value else places - 1)

@@ -100,6 +100,7 @@ class Motions:
             vectors.append(
                 tuple((1 if i == first else -1) * (place.get(first) == axis) for axis in range(max(len(axes), 1)))
             )
+        object.__setattr__(self, "reverse", tuple(inverse))
         object.__setattr__(self, "displacements", tuple(vectors))
         object.__setattr__(self, "inverse", tuple(inverse))
         object.__setattr__(self, "stay", stay)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .changes import Change, Changes
+from .dirichlet import SparseDirichlet
 from .errors import CogmapError
 from .factors import ModelFactor
 from .generative import GenerativeModel
@@ -48,7 +49,7 @@ def savepoint(model: GenerativeModel) -> Savepoint:
         len(model.places),
         len(model.growth),
         model.changes.hold(),
-        tuple(store.savepoint() for store in model.stores[1:]),
+        tuple(map(_point, model.stores[1:])),
         tuple(factor.savepoint() for factor in model.factors),
         tuple(_copied(factor) for factor in model.factors),
     )
@@ -72,7 +73,7 @@ def go_back(model: GenerativeModel, point: Savepoint) -> None:
     _undo(model, model.changes, point.changes)
     _resize(model, point.places)
     for store, kept in zip(model.stores[1:], point.stores, strict=True):
-        store.go_back(kept)
+        _store_back(store, kept)
     for factor, kept, others in zip(model.factors, point.factors, point.others, strict=True):
         _put_back(factor, others)
         factor.go_back(kept)
@@ -82,7 +83,8 @@ def go_back(model: GenerativeModel, point: Savepoint) -> None:
 
 def _undo(model: GenerativeModel, changes: Changes, since: Any) -> None:
     for store in model.stores[1:]:
-        store.level()
+        if isinstance(store, SparseDirichlet):
+            store.level()
     _resize(model, len(model.places))
     for entry in reversed(changes.held(since)):
         if not isinstance(entry, Change):
@@ -94,6 +96,18 @@ def _undo(model: GenerativeModel, changes: Changes, since: Any) -> None:
             entry.store.undo(entry.where, entry.old)
         else:
             entry.store.put(entry.where, entry.old)
+
+
+def _point(store: Any) -> Any:
+    """What a store needs to go back besides the log: little where it says so itself, else all that it has."""
+    return store.savepoint() if hasattr(store, "savepoint") else store.state()
+
+
+def _store_back(store: Any, point: Any) -> None:
+    if hasattr(store, "savepoint"):
+        store.go_back(point)
+    else:
+        store.restore(point)
 
 
 def _resize(model: GenerativeModel, places: int) -> None:

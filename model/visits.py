@@ -72,9 +72,6 @@ class Visits:
         """How many places there are, and in which order they were entered is in the log."""
         return len(self.visited)
 
-    def level(self) -> None:
-        """Nothing: what goes wrong is put right in the end."""
-
     def go_back(self, point: int) -> None:
         """Have so many places, and of each whether it was entered, as the order has it."""
         self.first.resize(0)

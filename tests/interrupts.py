@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import FrameType
 from typing import Any
+
+from cogmap.agent import Agent
 
 ROOT = str(Path(__file__).parents[1])
 
@@ -43,3 +46,23 @@ def interrupted(work: Callable[[], object], line: int) -> int:
 def lines_of(work: Callable[[], object]) -> int:
     """How many lines the work has."""
     return interrupted(work, -1)
+
+
+def content(agent: Agent) -> tuple[Any, ...]:
+    """All that the next steps of an agent depend on, in an order that does not depend on how it came about."""
+    header, arrays = agent.state()
+    rest: Any = json.loads(json.dumps(header))
+    tracker = agent._recognition.tracker
+    of_tracker = rest["recognition"].pop("tracker")
+    hypotheses = [
+        (
+            (h.weight, h.here, h.size, h.links, h.kinds, h.undo, h.periods, [*h.counts.yes], [*h.counts.no]),
+            {number: h.places[number] for number in sorted(h.places)},
+            {key: h.at[key] for key in sorted(h.at)},
+            {key: sorted(h.shown[key]) for key in sorted(h.shown)},
+        )
+        for h in tracker.hypotheses
+    ]
+    own = {name: values.tobytes() for name, values in arrays.items() if not name.startswith("tracker.")}
+    tried = {key: tracker._tried[key] for key in sorted(tracker._tried)}
+    return rest, own, hypotheses, tried, tracker.time, of_tracker["numbers"], of_tracker["evidence"]

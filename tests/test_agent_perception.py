@@ -304,3 +304,20 @@ def test_an_agent_that_is_told_that_it_was_moved_believes_it() -> None:
     assert told.belief.certainty <= 0.5  # into the other room, or one never seen
     told.step({"sight": "hall", "open": walls("right"), "taken": "stay"})
     assert told.map.position(told.belief.place) == (0, 0)
+
+
+def test_an_agent_follows_a_walk_that_was_recorded() -> None:
+    walk = [
+        {"sight": "hall", "open": walls("right")},
+        {"sight": "room", "open": [None, False, True, True, True], "taken": "right"},
+        {"sight": "hall", "open": [False, 0.1, 0.2, 0.9, True], "taken": "left"},
+    ]
+    agent = Agent(GRID, seed=0)
+    steps = list(agent.follow(walk))
+    assert [step.step for step in steps] == [0, 1, 2]
+    assert [step.ways for step in steps] == [(3,), (0, 2, 3), (3,)]
+    assert [step.probability.sum() for step in steps] == pytest.approx([1.0] * 3)
+    assert steps[-1].belief is agent.belief
+    assert agent.map.position(agent.belief.place) == (0, 0)
+    with pytest.raises(CogmapError, match="not acted on the last observation"):
+        list(agent.follow([{"sight": "hall", "open": UNSEEN}]))

@@ -90,33 +90,42 @@ def looked_at(agent: Any, rooms: list[Any]) -> Trail:
     return trail
 
 
-class Sure(Agent):
-    """Takes itself to be in place 0 always; `steps_in` may say otherwise."""
+class Told(Agent):
+    """Takes itself to be in place 0 always, and says when it was there."""
+
+    steps = 5  # type: ignore[assignment]
+    there = (0, 1, 2, 3, 4)
 
     @property
     def belief(self) -> Any:  # type: ignore[override]
         return SimpleNamespace(place=0, certainty=0.7)
 
+    def steps_in(self, place: int) -> tuple[int, ...]:
+        return self.there if place == 0 else ()
+
 
 def test_a_place_belongs_to_the_room_where_it_was_visited_most() -> None:
-    agent = Sure(GRID, seed=0)
+    agent = Told(GRID, seed=0)
     trail = looked_at(agent, [(0, 0), (0, 0), (0, 1), (0, 0), (0, 1)])
-    assert trail.wrong == 2
     assert trail.room(agent, 0) == (0, 0)
     assert trail.room(agent, 1) is None
-
-
-def test_the_agents_own_history_counts_where_it_tells_one() -> None:
-    class Told(Sure):
-        steps = 3  # type: ignore[assignment]
-
-        def steps_in(self, place: int) -> list[int]:
-            return [1, 2] if place == 0 else [0]
-
-    agent = Told(GRID, seed=0)
-    trail = looked_at(agent, [(0, 0), (0, 1), (0, 1)])
+    agent.there = (2, 4)
     assert trail.room(agent, 0) == (0, 1)
-    assert trail.room(agent, 1) == (0, 0)
+
+
+def test_it_is_wrong_where_it_is_certain_of_another_room() -> None:
+    class Growing(Told):
+        @property
+        def steps(self) -> int:  # type: ignore[override]
+            return len(trail.rooms)
+
+        def steps_in(self, place: int) -> tuple[int, ...]:
+            return tuple(range(len(trail.rooms)))
+
+    trail, agent = Trail(), Growing(GRID, seed=0)
+    for step, room in enumerate([(0, 0), (0, 0), (0, 1), (0, 0), (0, 1)]):
+        trail(Moment(step, agent, MazeEnv(MAZES["3x3"]), {}, {"position": room}, 0))
+    assert trail.wrong == 2
 
 
 def test_rows_of_agents_with_maps_say_what_these_are_worth() -> None:
@@ -179,3 +188,10 @@ def test_worlds_whose_ways_belong_to_the_place_are_explored() -> None:
     run = walk(geometric(6, degree=3, seed=1), 0, steps=15).run
     assert run.places is not None
     assert 0.0 < (run.known or 0.0) <= 1.0
+
+
+@pytest.mark.parametrize("world", [torus(3, 3), ring(6)], ids=["torus", "ring"])
+def test_places_are_recognised_where_positions_do_not_say_which_is_which(world: Any) -> None:
+    run = walk(world, 0, steps=45).run
+    assert run.places == len(world.chart.places)
+    assert run.certain_but_wrong == 0.0

@@ -9,6 +9,7 @@ from cogmap.agent import Agent, Settings
 from cogmap.experiments import (
     KidnapRun,
     Parts,
+    Truth,
     explore,
     explored,
     kidnap,
@@ -18,7 +19,7 @@ from cogmap.experiments import (
     workers,
 )
 from cogmap.model import ELSEWHERE, CogmapError
-from cogmap.worlds import MAZES, parse_maze
+from cogmap.worlds import MAZES, parse_maze, torus
 
 SMALL, TWO = MAZES["3x3"], parse_maze("0 1", name="two")
 
@@ -90,7 +91,7 @@ class Lost(Agent):
         if self.steps > 2:
             right, certain = self.script[min(self.steps - 3, len(self.script) - 1)]
             here = self.map.place_at((0, self.world.place[1] - self.start[1]))
-            self.said = SimpleNamespace(place=here if right else 1 - (here or 0), certain=certain)
+            self.said = SimpleNamespace(place=here if right else 1 - (here or 0), certain=certain, certainty=0.0)
             if self.harm == "transition":
                 self.map.B_s.add(self.map.row(0, 0), ELSEWHERE, 100.0)
             if self.harm == "place":
@@ -175,3 +176,13 @@ def test_bad_input(monkeypatch: pytest.MonkeyPatch) -> None:
     ):
         with pytest.raises(CogmapError, match=message):
             bad()
+
+
+def test_without_positions_a_place_is_the_room_in_which_it_was_visited_most() -> None:
+    session = explored("kidnap", SMALL, 1)
+    agent, trail = session.agent, session.trail
+    elsewhere = next(room for room in SMALL.rooms if room != session.place)
+    session.run(1, trail)
+    for truth in (session.truth, Truth(torus(3, 3).chart, (0, 0))):  # of a torus no position says which place is which
+        assert truth.right(agent, session.trail.rooms[-1], trail)
+        assert not truth.right(agent, elsewhere, trail)

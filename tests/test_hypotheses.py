@@ -237,6 +237,7 @@ def test_weights_add_up_to_one_at_every_step():
         (Sensed((0,), (1.0,) * 4, action=4), "action is 4; give 0 to 3"),
         (Sensed(({0: -1.0},), (1.0,) * 4), "are no likelihoods"),
         (Sensed(({0: 0.0},), (1.0,) * 4), "are no likelihoods"),
+        (Sensed(("red",), (1.0,) * 4), "sight is 'red'; give the number of a label"),  # type: ignore[arg-type]
     ],
 )
 def test_what_cannot_have_been_sensed_is_refused(sensed, message):

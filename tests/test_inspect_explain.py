@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.model import CogmapError
+from cogmap.model import CogmapError, Sight, Ways
 from cogmap.planning import POLICIES, TIE, Outward
 from cogmap.views import Explanation, explain
 from cogmap.worlds import load_world
@@ -16,6 +16,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from parts import agent_with
 from walks import GRID, walk, walked
+
+from cogmap import UNSEEN
 
 
 def assert_agrees(agent: Agent, told: Explanation) -> None:
@@ -156,3 +158,32 @@ def test_files_without_the_choice_say_so() -> None:
     strange = {**header, "state": {**header["state"], "choice": choice}}
     with pytest.raises(CogmapError, match="does not come out the same"):
         explain(Agent.from_state(strange, arrays))
+
+
+# -- which sensor spoke for what -------------------------------------------------------------------------------
+
+
+def test_each_sensor_says_what_it_spoke_for_and_what_was_expected_of_it() -> None:
+    agent = Agent(GRID, sensors=[Sight(), Sight("smell"), Ways()], seed=0)
+    doors = [False, False, False, True, True]
+    for _ in range(3):
+        agent.step({"sight": "hall", "smell": "tea", "open": doors, "taken": "stay"})
+    agent.prefer(sensors={"smell": {"tea": 2.0}})
+    agent.step({"sight": "hall", "smell": UNSEEN, "open": doors, "taken": "stay"})
+    told = explain(agent)
+    sight, smell, ways = told.spoken
+    assert (sight.sensor, sight.seen, sight.sensed, sight.expected) == ("sight", True, "hall", "hall")
+    assert sight.nats == pytest.approx(np.log(len(agent.map.sights) + 1), abs=1e-3)  # beyond any label alike
+    assert (smell.seen, smell.sensed, smell.expected, smell.nats) == (False, None, "tea", 0.0)
+    assert ways.sensed == ways.expected == tuple(doors)
+    assert ways.nats == pytest.approx(4 * np.log(2), abs=0.1)
+    assert "sight hall (expected hall) spoke for it by 0.693 nats; smell saw nothing; open" in told.text
+    assert "smell tea +2" in told.text
+    values = json.loads(json.dumps(told.to_dict()))
+    assert values["spoken"][1] == {"sensor": "smell", "seen": False, "sensed": None, "expected": "tea", "nats": 0.0}
+    assert values["sensors"] == [["smell", "tea", 2.0]]
+    agent.step({"sight": {"hall": 0.1, "room": 0.9}, "smell": "tea", "open": UNSEEN, "taken": "stay"})
+    against = explain(agent).spoken[0]
+    assert against.sensed == (("room", 1.0), ("hall", pytest.approx(1 / 9)))
+    assert against.nats < 0.0
+    assert "against it" in str(against)

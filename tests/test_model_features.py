@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent
 from cogmap.model import CogmapError, Features, Ways
+from cogmap.model.savepoint import go_back, savepoint
 from cogmap.worlds import load_world
 from walks import GRID
 
@@ -106,6 +107,22 @@ def test_prototypes_are_kept_in_files(tmp_path: Path) -> None:
     assert {number: mean.tolist() for number, mean in found.prototypes.items()} == {
         number: mean.tolist() for number, mean in kept.items()
     }
+
+
+def test_a_step_that_is_broken_off_leaves_prototypes_as_they_were() -> None:
+    agent, features = agent_with_features()
+    rng = np.random.default_rng(0)
+    for _ in range(3):
+        agent.step({"view": rng.normal(size=SIZE), "open": OPEN})
+    point, before = savepoint(agent.map), features.memory.state()
+    for _ in range(8):
+        features.read(rng.normal(size=SIZE), step=3)
+    assert features.memory.count > len(before["counts"])
+    go_back(agent.map, point)
+    for name, part in features.memory.state().items():
+        np.testing.assert_array_equal(part, before[name])
+    assert len(features.labels) == len(before["counts"])
+    assert features.table.outcomes == len(features.labels) + 1
 
 
 def test_prototypes_that_were_tampered_with_are_refused() -> None:

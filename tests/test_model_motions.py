@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -44,10 +45,15 @@ def test_bad_motions(names: tuple[str, ...], reverse: tuple[int, ...], message: 
 
 
 @pytest.mark.parametrize("reverse", [(1, 0, 2), ()])
-def test_an_agent_with_such_actions_has_no_pose(reverse: tuple[int, ...]) -> None:
+def test_an_agent_with_such_actions_has_no_pose(reverse: tuple[int, ...], tmp_path: Path) -> None:
     agent = Agent(spec("on", "back", "stay", reverse=reverse), seed=0)
     assert isinstance(agent.map.pose, NoPose)
     for step in range(12):
         agent.step({"sight": step % 3, "open": [True, True, True]})
+    agent.save(tmp_path / "m.npz")
+    twin = Agent.load(tmp_path / "m.npz")
+    assert twin.map.motions == agent.map.motions
+    told = {"sight": 1, "open": [True, False, True]}
+    assert twin.step(told) == agent.step(told)
     with pytest.raises(CogmapError, match="no displacements"):
         Agent(spec("on", "back", "stay", reverse=reverse), pose=Lattice())

@@ -11,6 +11,7 @@ from ..agent import Agent
 from ..model import CogmapError
 from ..planning import TIE, Plan, Policies, Term, evaluate
 from .explanation import BelievedPlace, Explanation, FirstAction, Rejected, WeighedPolicy
+from .speaking import spoken
 
 
 def explain(agent: Agent, *, most: int = 5) -> Explanation:
@@ -53,6 +54,8 @@ def explain(agent: Agent, *, most: int = 5) -> Explanation:
         places=tuple(wishes.places.items()),
         goal_weight=settings.goal_weight,
         collision_cost=settings.collision_cost,
+        spoken=spoken(agent),
+        sensors=tuple((name, *wish) for name, labels in wishes.sensors.items() for wish in labels.items()),
     )
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..model import LabelledTable, encode, plain, safe, shown
 from ..planning import Term
+from .speaking import Spoken
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +112,8 @@ class Explanation:
     places: tuple[tuple[int, float], ...]  # preferred places, likewise
     goal_weight: float  # weight of the preferences
     collision_cost: float  # what a collision costs, in nats
+    spoken: tuple[Spoken, ...]  # what each sensor had to say of the first place, at the step of the choice
+    sensors: tuple[tuple[str, Hashable, float], ...]  # preferred labels of other sensors than the first, likewise
 
     @property
     def text(self) -> str:
@@ -137,6 +140,9 @@ class Explanation:
         values["terms"] = [{name: getattr(term, name) for name in of_term} for term in self.terms]
         json = partial(encode, where="explain")
         values["sights"] = [[json(plain(label)), value] for label, value in self.sights]
+        values["sensors"] = [[sensor, json(plain(label)), value] for sensor, label, value in self.sensors]
+        for voice, told in zip(self.spoken, values["spoken"], strict=True):
+            told["sensed"], told["expected"] = json(plain(voice.sensed)), json(plain(voice.expected))
         for place, told in zip(self.belief, values["belief"], strict=True):
             told["senses"] = {sensor: json(plain(label)) for sensor, label in place.senses.items()}
             told["sight"] = json(plain(place.sight))
@@ -150,6 +156,7 @@ class Explanation:
         added, taken = ([_heading(term) for term in self.terms if term.sign == sign] for sign in (1.0, -1.0))
         return [
             f"step {self.step}: it believes to be in {first}; certainty {self.certainty:.3f}, doubt {self.doubt:.3f}",
+            *([f"  {'; '.join(map(str, self.spoken))}"] if self.spoken else []),
             *(["or in " + "; ".join(f"{place} ({place.probability:.3f})" for place in others)] if others else []),
             f"it weighed {many} {'policy' if many == 1 else 'policies'} of {self.length} steps "
             f"({self.generator}, {cut}) and chose ({self.how}, precision {self.precision:g})",
@@ -181,6 +188,7 @@ class Explanation:
     def _foot(self) -> list[str]:
         """The first actions, and the preferences."""
         wanted = [f"sight {shown(label)} {value:+g}" for label, value in self.sights]
+        wanted += [f"{sensor} {shown(label)} {value:+g}" for sensor, label, value in self.sensors]
         wanted += [f"place {place} {value:+g}" for place, value in self.places]
         hoped = f", in nats: {', '.join(wanted)}; goal weight {self.goal_weight:g}" if wanted else ": none, it explores"
         return [

@@ -8,12 +8,13 @@ from os import PathLike
 from typing import Any
 
 from ..agent import Agent, StepRecord
-from ..model import CogmapError, decode, encode, plain
+from ..model import CogmapError, decode, encode, plain, shown
 from ..worlds import Chart, Place
 from .map_picture import KNOWN, MapPicture
 from .recording_check import check
 from .recording_file import FORMAT, SCHEMA, read, upgraded, write
 from .recording_frames import NUMBERS, WindowWatch, plan_frame, term_json, world_json
+from .speaking import Spoken, spoken
 from .world_plot import as_place, world_picture
 
 DIGITS = 4
@@ -184,6 +185,12 @@ def _way(reading: bool | float | None) -> float | None:
     return None if reading is None else int(reading) if reading in (0, 1) else round(reading, DIGITS)
 
 
+def _voice(voice: Spoken) -> list[Any]:
+    """Nats for the place believed in, None where nothing was seen, and what was expected there."""
+    expected = None if voice.expected is None else shown(voice.expected)
+    return [round(voice.nats, DIGITS) if voice.seen else None, expected]
+
+
 def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
     """What was sensed, grown and believed."""
     grown = [event for event in record.grown if event.kind != "time"]
@@ -192,6 +199,7 @@ def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
         "step": record.step,
         "seen": {sensor: encode(label) for sensor, label in record.sensed.items()},
         **({"open": [_way(is_open) for is_open in record.open]} if record.open else {}),
+        "spoke": {voice.sensor: _voice(voice) for voice in spoken(agent)},
         "grown": [[event.kind, event.index, event.source, event.action] for event in grown],
         "revised": record.revised,
         "belief": places,

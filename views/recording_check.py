@@ -75,6 +75,7 @@ def _frame(data: dict[str, Any], frame: dict[str, Any], places: int) -> Shape:
         **dict.fromkeys(("step", "rest", *NUMBERS), _number),
         **{name: shape for name, shape in optional.items() if name in frame},
         "seen": dict.fromkeys(frame["seen"], _label),
+        **({"spoke": dict.fromkeys(frame["spoke"], (_or_none(_number), _or_none(_text)))} if "spoke" in frame else {}),
         "grown": [(_text, _any, _any, _any)],
         **({"retracted": _or_none(_whole)} if "retracted" in frame else {"revised": _flag}),  # the first as earlier
         "certain": _flag,

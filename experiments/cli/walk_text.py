@@ -103,11 +103,13 @@ def _learned(walk: Walk, agent: Agent) -> dict[str, str]:
     map_, ways = agent.map, ways_known(agent.map)
     places = f"{count(len(map_.places), 'place')} ({int(map_.visited.sum())} visited)"
     known = (f"{number} {'blocked' if name == 'refuted' else name}" for name, number in ways.items())
+    least = walk.truth.least(map_)  # 0 where positions say nothing
+    sure = {"least believed transition": f"{least:.3f} (learned from {BELIEVED})"} if least else {}
     return {
         "map": f"{places}, {count(len(map_.sights), 'sight')}",
         "transitions": ", ".join(known),
         "beside the truth": _worth(walk.run),
-        "least believed transition": f"{walk.truth.least(map_):.3f} (learned from {BELIEVED})",
+        **sure,
     }
 
 

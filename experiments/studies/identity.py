@@ -176,11 +176,12 @@ class Watcher:
         whole = len(set(rooms)) == self.verdict.places == len(chart.places)
         self.exact.append(self.verdict.map_right and whole)
         self.held.append((agent.belief.certainty, self.trail.room(agent, agent.belief.place) == rooms[-1]))
-        self.counted.append((float(len(getattr(agent, "hypotheses", (0,)))), float(self.verdict.places)))
+        self.counted.append((float(len(agent.hypotheses)), float(self.verdict.places)))
 
     def row(self, task: Task, moved_at: int, ms: float) -> IdentityRow:
         """What came of it."""
-        agent: Any = self.moments[-1].agent
+        agent = self.moments[-1].agent
+        rates = agent.learned_rates if isinstance(agent, Agent) else ()
         exact, verdict, held = self.exact, self.verdict, self.held
         wrong = len(exact) - 1 - next((k for k, is_exact in enumerate(reversed(exact)) if not is_exact), len(exact))
         late, sure = [right for _, right in held[LATE:]], [right for p, right in held if p >= SURE]
@@ -199,7 +200,7 @@ class Watcher:
             sure_wrong=sure.count(False),
             held=tuple(float(len(part)) for part in bins),
             right=tuple(float(sum(part)) for part in bins),
-            rates={rate.name: round(rate.mean, 4) for rate in getattr(agent, "learned_rates", ())},
+            rates={rate.name: round(rate.mean, 4) for rate in rates},
             ms=round(ms, 3),
             hypotheses=tuple(number for number, _ in self.counted),
             sizes=tuple(places for _, places in self.counted),

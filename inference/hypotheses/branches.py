@@ -216,9 +216,12 @@ def unseen(h: Hypothesis) -> float:
 
 
 def look_alikes(h: Hypothesis, sensed: Sensed) -> tuple[int, ...]:
-    """Places that may look like what is sensed, those first seen last."""
-    reading = sensed.sights[0] if sensed.sights else None
-    return (h.shown.get((0, reading)) or () if isinstance(reading, int) else tuple(sorted(h.places)))[-MOST:]
+    """Places that may look like what is sensed, to any sensor that is sure of it; those first seen last."""
+    sure = [(sensor, reading) for sensor, reading in enumerate(sensed.sights) if isinstance(reading, int)]
+    if len(sure) == 1:
+        return (h.shown.get(sure[0]) or ())[-MOST:]
+    alike = {number for key in sure for number in h.shown.get(key) or ()} if sure else h.places
+    return tuple(sorted(alike))[-MOST:]
 
 
 def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:

@@ -18,11 +18,21 @@ def pairs(h: Hypothesis, *, most: int = 12) -> Iterator[tuple[int, int, bool]]:
     At most the `most` look-alikes that were seen last are named.
     """
     here = h.places[h.here]
-    alike = h.shown.get((0, here.label())) or ()
-    for other in [number for number in alike if number != h.here][-most:]:
+    for other in _alike(h, here)[-most:]:
         yield h.here, other, False
         if _may_close(h, here, h.places[other]):
             yield h.here, other, True
+
+
+def _alike(h: Hypothesis, here: Place) -> list[int]:
+    """Places that look the same to some sensor; those that do to more sensors, and were seen last, at the end."""
+    votes: dict[int, int] = {}
+    for sensor in range(h.scheme.sensors):
+        label = here.label(sensor)
+        for number in (h.shown.get((sensor, label)) or ()) if label >= 0 else ():
+            votes[number] = votes.get(number, 0) + 1
+    votes.pop(h.here, None)
+    return sorted(votes, key=votes.__getitem__) if h.scheme.sensors > 1 else list(votes)
 
 
 def _may_close(h: Hypothesis, one: Place, other: Place) -> bool:

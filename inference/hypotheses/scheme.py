@@ -84,6 +84,8 @@ class Sensed:
             if way is not None and not 0.0 <= way <= 1.0:
                 raise CogmapError(f"sensed: P(open) is {way}; give a number from 0 to 1, or None")
         for sight in self.sights:
+            if not (sight is None or isinstance(sight, (int, Mapping))):  # pyright: ignore[reportUnnecessaryIsInstance]
+                raise CogmapError(f"sensed: sight is {sight!r}; give the number of a label, likelihoods, or None")
             values = list(sight.values()) if isinstance(sight, Mapping) else []
             if isinstance(sight, Mapping) and not (values and max(values) > 0.0 and all(map(_likelihood, values))):
                 raise CogmapError(f"sensed: {sight} are no likelihoods; give finite numbers, one of them above 0")

@@ -230,6 +230,17 @@ class Prototypes:
         """Never: no change of it is logged."""
         return False
 
+    def savepoint(self) -> dict[str, NDArray[Any]]:
+        """All that it knows."""
+        return self.state()
+
+    def level(self) -> None:
+        """Nothing: nobody writes to it from outside."""
+
+    def go_back(self, point: dict[str, NDArray[Any]]) -> None:
+        """Know what it knew."""
+        self._know(*point.values())
+
     def touched(self, where: Any) -> Iterable[int]:
         """No place."""
         return ()
@@ -255,5 +266,8 @@ class Prototypes:
         known = (shown >= 0.0) & (shown < len(counts))
         if not ((counts >= 0.0).all() and (stray >= 0.0).all() and first[1] >= 0.0 and known.all()):
             raise CogmapError(f"map: {self.name} have counts that are none; save it again")
+        self._know(*parts)
+
+    def _know(self, first: Floats, stray: Floats, counts: Floats, sums: Floats, recent: Floats, shown: Floats) -> None:
         self._first, self._stray, self._counts, self._sums = first.copy(), stray.copy(), counts.copy(), sums.copy()
         self._recent, self._shown = recent.copy(), shown.astype(np.int64)

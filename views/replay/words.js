@@ -23,6 +23,16 @@ function seen(frame) {
   return `Step ${frame.step}. It ${labels.length ? what : "sees nothing"}${ways}.`;
 }
 
+// Which sensor spoke for the place that is believed in, and what was expected of it there.
+function spoke(frame) {
+  const told = Object.entries(frame.spoke || {}).map(([sensor, [nats, expected]]) => {
+    if (nats === null) return `${sensor} saw nothing`;
+    const wanted = sensor === "open" || expected === null ? "" : ` (expected ${expected})`;
+    return `${sensor}${wanted} ${nats >= 0 ? "for" : "against"} it by ${number(Math.abs(nats))} nats`;
+  });
+  return told.length ? `Of that place spoke: ${told.join("; ")}.` : "";
+}
+
 function believed(frame) {
   const [[place, q], second] = frame.belief;
   const { exact } = map.places[place], real = truth(frame);
@@ -59,6 +69,6 @@ function chosen(frame) {
 }
 
 function drawWords(frame) {
-  const texts = [seen(frame), believed(frame), changed(frame), chosen(frame)].filter(Boolean);
+  const texts = [seen(frame), believed(frame), spoke(frame), changed(frame), chosen(frame)].filter(Boolean);
   $("words").replaceChildren(...texts.map((text) => el("p", {}, text)));
 }

@@ -119,10 +119,10 @@ class Lattice(Pose):
         """Refuse what are no positions, and so many that a table of them would fill the memory."""
         dimensions = len(self.origin)
         for position in positions:
-            whole = isinstance(position, tuple) and set(map(type, position)) == {int}
-            if not (whole and len(position) in (dimensions, dimensions + 1)):
+            numbers = cast(tuple[int, ...], position) if isinstance(position, tuple) else ()
+            if set(map(type, numbers)) != {int} or len(numbers) not in (dimensions, dimensions + 1):
                 raise CogmapError(f"map: {position!r} is no position; save it again")
-            if max(map(abs, position)) >= 2**62:
+            if max(map(abs, numbers)) >= 2**62:
                 raise CogmapError("map: a position is too far away; save it again")
         if len(set(positions)) < len(positions):
             raise CogmapError("map: two positions are the same; save it again")
@@ -219,6 +219,9 @@ class Lattice(Pose):
         return index
 
     def _connect(self, index: int, position: Position) -> None:
+        """Name what lies beside a position, unless another one stands for it."""
+        if self.periods and len(position) == len(self.origin) and reduced(position, self.periods) != position:
+            return
         for action in range(len(self.motions)):
             there = self.positions.find(self.moved(position, action))
             if there is not None:

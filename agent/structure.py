@@ -1,0 +1,49 @@
+"""Hypotheses about the map as a planner asks them: what they would have the agent sense on its way."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+from math import exp
+
+from ..inference import NOWHERE, Hypothesis, open_probability
+
+LEAST = 1e-2
+"""Hypotheses less probable than this are not worth a way."""
+
+
+class OpenQuestion:
+    """The hypotheses that are worth telling apart; places go by the numbers of each.
+
+    Attributes:
+        weights: their probabilities.
+        here: where the agent is in each.
+    """
+
+    def __init__(self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int]) -> None:
+        self._kept = [h for h in hypotheses if exp(h.weight) >= LEAST]
+        self._ways = ways
+        self.weights: Sequence[float] = [exp(h.weight) for h in self._kept]
+        self.here: Sequence[Hashable] = [h.here for h in self._kept]
+
+    def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
+        """The place that an action leads to; the same where its way is believed shut, None for one never seen."""
+        found, number, way = self._kept[h], _number(place), self._ways.get(action)
+        if way is None or open_probability(found, number, way) < 0.5:
+            return number
+        to = found.neighbour(found.places[number], way)
+        return None if to == NOWHERE else to
+
+    def expected(self, h: int, place: Hashable, /) -> Hashable:
+        """Its sights, and its ways as far as they were looked at."""
+        found, number = self._kept[h], _number(place)
+        record = found.places[number]
+        looked = [
+            None if not (way.open or way.blocked) else open_probability(found, number, k) > 0.5
+            for k, way in enumerate(record.ways)
+        ]
+        return tuple(record.label(sensor) for sensor in range(found.scheme.sensors)), tuple(looked)
+
+
+def _number(place: Hashable) -> int:
+    assert isinstance(place, int)
+    return place

@@ -1,0 +1,132 @@
+"""Places are what they are recognised as: worlds that close on themselves, noise, silent moves, no positions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from cogmap.agent import Agent, Settings
+from cogmap.experiments import Trail, Verdict
+from cogmap.experiments.running import Moment
+from cogmap.inference import infer
+from cogmap.model import NoPose
+from cogmap.worlds import NoisyWorld, load_world, place_of, torus
+
+
+def walked(world: Any, agent: Agent, steps: int, *, seed: int = 0, moves: dict[int, Any] | None = None) -> Trail:
+    """Where an agent was that has walked; after some steps it is put elsewhere without a word."""
+    observation, info = world.reset(seed=seed)
+    trail = Trail()
+    for step in range(steps):
+        if step in (moves or {}):
+            observation = world.unwrapped.displace(moves[step])  # type: ignore[index]
+            info = {**info, "position": moves[step]}  # type: ignore[index]
+        action = agent.step(observation)
+        trail(Moment(world=world, agent=agent, step=step, observation=observation, info=info, action=action))
+        observation, *_, info = world.step(action)
+    return trail
+
+
+def exact(agent: Agent, trail: Trail, world: Any) -> Verdict:
+    """Whether every room is one place, every place one room, and every way right."""
+    verdict = trail.verdict(agent, world.unwrapped.chart)
+    assert verdict.map_right, [hypothesis.differences for hypothesis in agent.hypotheses]
+    assert verdict.places == len(agent.map.places) == len(world.unwrapped.chart.places)
+    assert verdict.known == 1.0
+    return verdict
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_torus_is_found_to_close_on_itself(seed: int) -> None:
+    world = torus(3, 3, seed=seed)
+    agent = Agent(world.motions, seed=seed)
+    trail = walked(world, agent, 40, seed=seed)
+    exact(agent, trail, world)
+    assert agent.certain
+    assert all(agent.map.position(place) is not None for place in agent.map.places)
+
+
+@pytest.mark.parametrize(
+    ("noise", "rate", "within"),
+    [({"door": 0.05}, "way_misread", 0.03), ({"sight": 0.1}, "sight_misread", 0.06), ({"slip": 0.1}, "astray", 0.06)],
+)
+def test_a_map_is_right_under_noise_whose_rate_is_learned(noise: dict[str, float], rate: str, within: float) -> None:
+    world = NoisyWorld(load_world("4x4"), **noise)
+    agent = Agent(world.unwrapped.motions, settings=Settings(look_ahead=3), seed=1)
+    trail = walked(world, agent, 160, seed=1)
+    exact(agent, trail, world)
+    learned = {each.name: each.mean for each in agent.learned_rates}
+    assert learned[rate] == pytest.approx(next(iter(noise.values())), abs=within)
+    assert trail.wrong <= 8
+
+
+def test_a_silent_move_while_half_is_known_is_found() -> None:
+    world = load_world("4x4")
+    agent = Agent(world.motions, seed=0)
+    trail = walked(world, agent, 60, moves={7: (3, 3)})
+    exact(agent, trail, world)
+
+
+def test_without_positions_places_are_known_by_what_is_sensed() -> None:
+    world = load_world("3x3")
+    agent = Agent(world.motions, pose=NoPose(), seed=0)
+    trail = walked(world, agent, 40)
+    exact(agent, trail, world)
+    assert agent.map.position(0) is None
+
+
+def test_hypotheses_say_what_they_differ_in_and_are_saved(tmp_path: Path) -> None:
+    world = load_world("3x3_alias")
+    agent = Agent(world.motions, seed=0)
+    observation, _ = world.reset(seed=0)
+    open_questions = 0
+    for step in range(30):
+        if step == 12:
+            observation = world.displace((0, 2))
+        agent.step(observation)
+        hypotheses = agent.hypotheses
+        assert sum(each.probability for each in hypotheses) == pytest.approx(1.0)
+        assert [each.probability for each in hypotheses] == sorted((e.probability for e in hypotheses), reverse=True)
+        assert sum(not each.differences for each in hypotheses) >= 1
+        open_questions += len(hypotheses) > 1
+        agent.save(tmp_path / "agent.npz")
+        loaded = Agent.load(tmp_path / "agent.npz")
+        assert loaded.hypotheses == hypotheses
+        assert loaded.learned_rates == agent.learned_rates
+        observation, *_ = world.step(agent.trace[-1].action)
+    assert open_questions
+
+
+def test_the_graph_has_the_open_question_as_a_variable() -> None:
+    world = load_world("3x3_alias")
+    agent = Agent(world.motions, seed=0)
+    observation, _ = world.reset(seed=0)
+    asked = 0
+    for step in range(30):
+        if step == 12:
+            observation = world.displace((0, 2))
+        action = agent.step(observation)
+        if len(agent.hypotheses) > 1:
+            asked += 1
+            posterior, t = infer(agent.graph), agent.steps - 1
+            weights = [each.probability for each in agent.hypotheses]
+            np.testing.assert_allclose(posterior.marginal(f"h{t}"), np.array(weights) / sum(weights), atol=1e-9)
+            here = dict(zip(agent.graph.variable_named(f"here{t}").domain, posterior.marginal(f"here{t}"), strict=True))
+            assert here[agent.belief.place] == pytest.approx(agent.belief.certainty, abs=1e-6)
+        observation, *_ = world.step(action)
+    assert asked
+
+
+def test_the_last_steps_in_a_place_are_those_of_its_room() -> None:
+    world = load_world("4x4_alias")
+    agent = Agent(world.motions, seed=3)
+    observation, info = world.reset(seed=3)
+    rooms: list[Any] = []
+    for _ in range(40):
+        action = agent.step(observation)
+        rooms.append(place_of(info))
+        observation, *_, info = world.step(action)
+    for place in agent.map.visited_places.tolist():
+        assert len({rooms[step] for step in agent.steps_in(place)}) == 1
