@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import Belief
+from ..inference import Belief, Hypothesis
 from ..model import CogmapError, CognitiveMap, Percept, Slice, window_graph
 from .state import Choice, GivenPreferences, State
 
@@ -39,6 +39,35 @@ def check_state(state: State, map_: CognitiveMap) -> None:
     if state.percept is not None:
         _check_percept(state.percept, map_)
     _check_window(state.window, state, map_)
+
+
+def check_recognition(
+    places: Mapping[Any, Any],
+    missed: Any,
+    followed: Any,
+    moved: Any,
+    map_: CognitiveMap,
+    hypotheses: Sequence[Hypothesis],
+) -> None:
+    """Refuse what no agent says of which place is which.
+
+    Args:
+        places: by number of a place of the followed hypothesis, the place of the map.
+        missed: numbers of places of which the map was not taught the last steps.
+        followed: number of the hypothesis that the map says; None where there is none.
+        moved: whether it has the agent moved in the last step.
+        map_: the map.
+        hypotheses: all of them.
+
+    Raises:
+        CogmapError: a number is none, or about a place or a hypothesis that there is not.
+    """
+    numbers = [*places, *places.values(), *missed, *([] if followed is None else [followed])]
+    whole = all(isinstance(number, int) and not isinstance(number, bool) for number in numbers)
+    if not whole or not isinstance(moved, bool) or not all(place in map_.places for place in places.values()):
+        raise CogmapError("which place is which is told by what are no places of the map")
+    if followed is not None and not (0 <= followed < len(hypotheses) and hypotheses[followed].here in places):
+        raise CogmapError("the map follows a hypothesis that there is not")
 
 
 def _check_belief(belief: Belief, map_: CognitiveMap) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..inference import Belief, Hypothesis, Message, Place, RateOf, Tracker, TrackerOptions, rates_of, tracker_knowing
 from ..model import CognitiveMap, FactorGraph, Growth, Percept
+from .checks import check_recognition
 from .hypotheses import MapHypothesis, compared
 from .knowing import records_of
 from .mirror import Doors, Mirror, passable
@@ -193,11 +194,13 @@ class Recognition:
         prefix = "tracker."
         own = {name.removeprefix(prefix): arrays[name] for name in arrays if name.startswith(prefix)}
         self.tracker = Tracker.restored(self.sensing.scheme, self.tracker.options, (state["tracker"], own))
-        places = {int(number): int(place) for number, place in state["places"]}
-        self.followed = None if state["followed"] is None else self.tracker.hypotheses[int(state["followed"])]
+        places: dict[Any, Any] = dict(state["places"])
+        followed, missed = state["followed"], state["missed"]
+        check_recognition(places, missed, followed, state["moved"], self._map, self.tracker.hypotheses)
+        self.followed = None if followed is None else self.tracker.hypotheses[followed]
         if self.followed is not None:
-            self.mirror.restore(self.followed, places, missed=map(int, state["missed"]))
-        self.moved = bool(state["moved"])
+            self.mirror.restore(self.followed, places, missed=missed)
+        self.moved = state["moved"]
 
     @property
     def start(self) -> Message | None:

@@ -3,10 +3,11 @@
     python benchmarks/detours.py
     python benchmarks/detours.py --worlds donut tolman office --look-ahead 2 6 15 --ways 8 --json detours.json
 
-The agent knows every room (see `known.py`). It is at one of `--ways` random starts, prefers a random room by
-`--weight` nats, and the first door on the shortest way there was shut, where there is another way. Least is the
-shortest way with the door known shut. `never` counts those that have not chosen to stay at the goal after four times
-that and 20 moves.
+The agent was led through every room (see `known.py`). It is at one of `--ways` random starts, prefers a random room by
+`--weight` nats, and the first door on the shortest way there was shut, where there is another way. It has looked at
+that door `--looks` times; with `--met` any door on the way is shut, and met by walking there. The ratio is to the
+shortest way with the door known shut, from where it is met. `never` counts those that have not chosen to stay at the
+goal after four times the way and 20 moves.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ def tasks(
             return
 
 
-def walked(maze: Maze, task: tuple[Any, ...], look_ahead: int, weight: float, seed: int) -> int | None:
+def walked(maze: Maze, task: tuple[Any, ...], look_ahead: int, weight: float, looks: int, seed: int) -> int | None:
     """Moves until it chooses to stay at the goal; None where it does not get there."""
     start, goal, door, least = task
     agent = known_agent(maze, start, settings=Settings(look_ahead=look_ahead), seed=seed)
@@ -76,6 +77,9 @@ def walked(maze: Maze, task: tuple[Any, ...], look_ahead: int, weight: float, se
     world.reset(options={"start": start})
     world.close_door(*door)
     observation = world.displace(start)
+    for _ in range(looks):
+        agent.perceive({**observation, "taken": "stay"})
+    agent._state.action, agent._state.acted = agent.map.motions.stay, True
     agent.prefer(places={agent.map.place_at((goal[0] - start[0], goal[1] - start[1])) or 0: weight})
     for step in range(4 * least + 20):
         action = agent.step(observation)
@@ -94,7 +98,8 @@ def measured(name: str, asked: argparse.Namespace, look_ahead: int) -> dict[str,
     """One line of the table."""
     maze = maze_of(name, asked.seed)
     found = list(tasks(maze, asked.ways, asked.seed, asked.met))
-    steps = [walked(maze, task, look_ahead, asked.weight, seed) for seed, task in enumerate(found)]
+    looks = 0 if asked.met else asked.looks
+    steps = [walked(maze, task, look_ahead, asked.weight, looks, seed) for seed, task in enumerate(found)]
     there = [(made, task[-1]) for made, task in zip(steps, found, strict=True) if made is not None]
     ratio = sum(made for made, _ in there) / max(sum(least for _, least in there), 1)
     worst = max((made / least for made, least in there), default=0.0)
@@ -109,6 +114,9 @@ def main(given: Sequence[str] | None = None) -> None:
     parser.add_argument("--look-ahead", type=int, nargs="+", default=list(range(2, 16)))
     parser.add_argument("--ways", type=int, default=4, help="starts and goals of each world")
     parser.add_argument("--met", action="store_true", help="a door anywhere on the way, met by walking there")
+    parser.add_argument(
+        "--looks", type=int, default=12, help="at the shut door before it sets out, so that it is known"
+    )
     parser.add_argument("--weight", type=float, default=8.0, help="log preference of the goal, in nats")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--json", type=json_path)

@@ -1,11 +1,10 @@
-"""Maps of mazes that would take too long to walk through: the same lessons, without inference and planning."""
+"""Agents that know mazes which would take too long to explore: they are led through, and plan nothing."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from cogmap.agent import Agent, Settings
-from cogmap.model import Whereabouts
 from cogmap.planning import Planner
 from cogmap.worlds import GRID, Maze, MazeEnv, Position
 
@@ -13,24 +12,15 @@ from cogmap.worlds import GRID, Maze, MazeEnv, Position
 def known_agent(
     maze: Maze, start: Position, *, settings: Settings | None = None, planner: Planner | None = None, seed: int = 0
 ) -> Agent:
-    """An agent with the map of one that has walked through all of the maze from `start`, depth first, and is back.
+    """An agent that was led through all of the maze from `start`, depth first, and back, and has made no choice yet.
 
-    It has taken no step yet: its first observation must be that of `start`.
+    Its first observation must be that of `start`, where it has stayed.
     """
-    agent = Agent(GRID, planner=planner, settings=settings, seed=seed)
-    map_, world = agent.map, MazeEnv(maze)
+    agent, world = Agent(GRID, planner=planner, settings=settings, seed=seed), MazeEnv(maze)
     world.reset(options={"start": start})
-    place = 0
-    for step, (action, room) in enumerate(depth_first(maze, start)):
-        if action is not None:
-            before, place = place, map_.place_at((room[0] - start[0], room[1] - start[1])) or 0
-            map_.transitions.learn(before, action, place, 1.0)
-        observation = world.displace(room)
-        values = {name: sensor.check(observation[name]) for name, sensor in map_.sensors.items()}
-        map_.mark_visited(place)
-        map_.recall(agent.growth.look(map_, Whereabouts({place: 1.0}), values["open"], step=step))
-        readings = {name: sensor.read(values[name], step=step) for name, sensor in map_.sensors.items()}
-        map_.learn(place, readings, 1.0)
+    for action, room in depth_first(maze, start):
+        agent.perceive({**world.displace(room), **({} if action is None else {"taken": action})})
+    agent._state.action, agent._state.acted = agent.map.motions.stay, True
     return agent
 
 

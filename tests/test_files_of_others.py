@@ -299,3 +299,14 @@ def test_a_name_with_control_characters_is_written_out_in_errors(tmp_path: Path)
             load(path)
         assert str(raised.value).isprintable()
         assert r"\x1b[31m" in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("followed", 99), ("followed", -1), ("followed", True), ("missed", ["x"]), ("moved", 1), ("places", [[0, 10**9]]),
+     ("places", []), ("places", [["x", 0]])],
+)  # fmt: skip
+def test_recognitions_that_no_agent_has(field: str, value: Any, saved: Path, tmp_path: Path) -> None:
+    header, arrays = unpacked(saved)
+    header["recognition"][field] = value
+    assert "is damaged" in refusal(packed(tmp_path / "map.npz", header, arrays))
