@@ -13,7 +13,8 @@ from cogmap.inference.hypotheses.chances import Chances
 from cogmap.inference.hypotheses.evidence import probability, way_odds
 from cogmap.inference.hypotheses.layered import Layered
 from cogmap.inference.hypotheses.pruning import alike
-from cogmap.inference.hypotheses.rates import RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
+from cogmap.inference.hypotheses.rates import MOVED, RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
+from cogmap.inference.hypotheses.straightening import straightened
 from cogmap.inference.hypotheses.weighing import door_evidence
 from cogmap.model import CogmapError, reduced, with_period
 from hypothesis import given, settings
@@ -260,3 +261,24 @@ def test_trackers_that_cannot_work_are_refused():
         WayScheme(4, (1, 0, 3, 2), ((1, 0),))
     with pytest.raises(CogmapError, match="0 ways"):
         WayScheme(0)
+
+
+def test_a_link_off_the_chart_that_the_other_side_denies_was_a_silent_move():
+    tracker = Tracker(LATTICE)
+    walk(tracker, Grid([[0, 1, 2], [3, 4, 5], [6, 7, 8]]), "RRLLDRRLLDRRUULL")
+    h = tracker.best.fork()
+    h.chances = Chances(h.counts, [10], size=h.size)
+    here = next(k for k in h.places if h.places[k].position == (0, 1))
+    way = h.places[here].ways[3]
+    far = next(k for k in h.places if h.places[k].position == (2, 0))
+    assert h.beside(h.places[here], 3) == way.to
+    crooked = (*h.places[here].ways[:3], way._replace(walks=1, to=far))
+    h.put(here, h.places[here]._replace(ways=crooked))
+    h.put(far, h.places[far]._replace(into=h.places[far].into | {(here, 3)}))
+    straight = straightened(h, here, floor=-1e9)
+    assert straight is not None
+    assert (straight.places[here].ways[3].to, straight.places[here].ways[3].walks) == (way.to, 0)
+    assert (here, 3) not in straight.places[far].into
+    assert straight.counts.yes[MOVED] == h.counts.yes[MOVED] + 1.0
+    assert straightened(h, here, floor=h.weight + 100.0) is None
+    assert all(straightened(tracker.best, number, floor=-1e9) is None for number in tracker.best.places)

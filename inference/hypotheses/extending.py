@@ -83,7 +83,7 @@ def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         h.counts.yes[RELINKED] += way.to != to
         h.counts.no[RELINKED] += (way.to == to) / (way.walks * way.walks)
     if way.to not in (NOWHERE, to):
-        _unlink(h, here, index, way)
+        unlink(h, here, index, way)
         way = Way(way.net, way.open, way.blocked)
     elif way.to == NOWHERE:
         _count_link(h, place, index, to, branch)
@@ -114,7 +114,7 @@ def _arrive(h: Hypothesis, here: int, index: int, to: int) -> None:
     h.put(to, Place(place.sights, ways, place.frame, place.position, place.recent, into, place.share))
 
 
-def _unlink(h: Hypothesis, here: int, index: int, way: Way) -> None:
+def unlink(h: Hypothesis, here: int, index: int, way: Way) -> None:
     """A way leads elsewhere than was thought: its way back is not known from it any more."""
     old = h.places.get(way.to)
     if old is None:

@@ -26,6 +26,7 @@ from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
 from .storing import Arrays, Parts, restored, stored
+from .straightening import straightened
 
 QUIET = 4
 """Steps without doubt after which what is improbable is let go."""
@@ -292,6 +293,8 @@ class Tracker:
         self._doubted -= 1
         number = self._doubts[self._doubted]
         place = h.places.get(number)
+        if place is not None and (straight := straightened(h, number, floor=h.weight - drop)) is not None:
+            yield straight
         if place is None or self._tried.get(key := (number, number, False, 0), NEVER).blocks(h, self.time):
             return
         if numbers := doubted(h, number, self.history):

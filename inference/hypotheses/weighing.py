@@ -33,9 +33,9 @@ def scored(united: Union) -> tuple[float, Links]:
     gain = united.sights - united.cost + _seating_gain(united)
     gain += _doors(united, apart=False) - _doors(united, apart=True)
     gain += _structure_gain(united, more)
-    gain += _gain(h, UNDONE, 0, more.crooked)
+    gain += rate_gain(h, UNDONE, 0, more.crooked)
     if h.scheme.inverse is None:
-        gain += _gain(h, MEETING, more.meeting, more.ways - more.meeting)
+        gain += rate_gain(h, MEETING, more.meeting, more.ways - more.meeting)
     if united.charts.joined > 1:
         gain -= log(h.size + 1.0)
     return gain, more
@@ -46,15 +46,15 @@ def _structure_gain(united: Union, more: Links) -> float:
     fewer = len(set(united.gone()))
     if h.scheme.displacements is not None:
         off = more.off + (united.charts.periods is not None)
-        gain = _gain(h, ELSEWHERE, off, more.ways - more.off)
+        gain = rate_gain(h, ELSEWHERE, off, more.ways - more.off)
         return gain - off * log(h.size - fewer + 1.0)
     closed = max(h.links - h.size + 1, 0)
     closed_after = max(h.links + more.ways - h.size + fewer + 1, 0)
-    gain = _gain(h, NEW, -fewer, closed_after - max(h.counts.no[NEW], 0.0))
+    gain = rate_gain(h, NEW, -fewer, closed_after - max(h.counts.no[NEW], 0.0))
     return gain - closed_after * log(max(FACTOR * (h.size - fewer), 1.0)) + closed * log(max(FACTOR * h.size, 1.0))
 
 
-def _gain(h: Hypothesis, rate: int, yes: float, no: float) -> float:
+def rate_gain(h: Hypothesis, rate: int, yes: float, no: float) -> float:
     """What more counts of a rate do to its evidence."""
     prior, n_yes, n_no = RATE_PRIORS[rate], max(h.counts.yes[rate], 0.0), max(h.counts.no[rate], 0.0)
     return prior.log_evidence(max(n_yes + yes, 0.0), max(n_no + no, 0.0)) - prior.log_evidence(n_yes, n_no)
