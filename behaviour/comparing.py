@@ -108,6 +108,7 @@ def result_of(rows: Iterable[Row], source: Source, models: Sequence[ChoiceModel]
         )
     return {
         "world": source.ground.name,
+        "home": None if source.ground.home is None else str(source.ground.places[source.ground.home]),
         "how": asdict(how) | {"look_ahead": source.look_ahead},
         "models": [_entry(whole[name]["group"], everyone[name]) for name in names],
         "preferred": preferred(everyone, models),

@@ -16,6 +16,7 @@ from .routes import Route
 
 Floats = NDArray[np.float32]
 Ints = NDArray[np.int32]
+Position = tuple[float, ...]
 LOOK_AHEAD = 6
 """Steps of a policy that are judged, unless told otherwise."""
 HALF = 0.5
@@ -94,7 +95,7 @@ def follow_route(
         CogmapError: the agent refuses what is sensed.
     """
     agent, places = new_agent(ground, look_ahead=look_ahead), route.places.tolist()
-    foresight, parts, known = Foresight(agent, ground), list[Prospects](), dict[int, int]()
+    foresight, parts, known = Foresight(agent, ground), list[Prospects](), dict[int, Position]()
     astray = 0
     for i, observation in enumerate(ground.observations(places)):
         at, ahead = places[i], places[i + 1] if i + 1 < len(places) else -1
@@ -124,18 +125,20 @@ class Foresight:
         self._names = {name: i for i, name in enumerate(agent.map.motions.names)}
         self._terms, self._length = tuple(agent.planner.terms), agent.settings.look_ahead
         self._stay = agent.map.motions.stay
-        self._last: dict[int, int] = {}  # the step at which each place of the map was last believed to be entered
+        self._last: dict[Position, int] = {}  # the step at which each place was last believed to be entered
         self._new = 0.0  # nats that a place never seen gains
 
-    def arrive(self, observation: Mapping[str, Any]) -> int:
-        """Let the agent perceive the next step of the walk; answers with the place of its map where it believes to be.
+    def arrive(self, observation: Mapping[str, Any]) -> Position:
+        """Let the agent perceive the next step of the walk; answers with where in its map it believes to be.
+
+        Places go by their position: their numbers change where another hypothesis about the map becomes the best one.
 
         Raises:
             CogmapError: what `Agent.perceive` raises.
         """
-        place = self._agent.perceive(observation).place
-        self._last[place] = self._agent.steps
-        return place
+        position = tuple(self._agent.map.position(self._agent.perceive(observation).place) or ())
+        self._last[position] = self._agent.steps
+        return position
 
     def look(self, ways: Iterable[Way]) -> Prospects:
         """What it expects beyond these ways; call `arrive` first."""
@@ -161,7 +164,7 @@ class Foresight:
         self, model: LocalModel, actions: NDArray[np.int64], gain: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.uint16]]:
         """What forgetting could add to each step, and the age of what is known there."""
-        last = np.array([self._last.get(place, -1) for place in model.places.tolist()] + [-1])
+        last = np.array([self._last.get(tuple(at), -1) for at in model.position.tolist()] + [-1])
         at = np.full(len(actions), int(model.belief.argmax()))
         length = actions.shape[1]
         path = np.empty((len(actions), length), dtype=np.int64)

@@ -41,8 +41,8 @@ class Route:
 def routes_of(walks: Sequence[Walk], ground: Ground, *, until: Any = None) -> tuple[list[Route], Ground]:
     """The walks over the places of a world, and the ground with the home that lies between bouts.
 
-    Where no home is given and bouts do not join, home is the one place that no walk enters and that has ways to all
-    places in which bouts begin and from all in which they end.
+    Where no home is given, it is the one dead end that no walk enters and whose way leads to where all bouts begin, and
+    back from where they end.
 
     Args:
         walks: one or more.
@@ -89,6 +89,7 @@ def _home_of(walks: Sequence[list[list[int]]], ground: Ground) -> int | None:
         home
         for home in range(len(ground.places))
         if home not in entered
+        and len(ground.ways[home]) == 1
         and all(ground.way(home, first) for first in firsts)
         and all(ground.way(last, home) for last in lasts)
     ]

@@ -15,7 +15,7 @@ from ..terms import Parameter, Term
 
 Floats = NDArray[np.float64]
 
-LAPSES = (2.0, 20.0)
+LAPSES = (1.5, 5.0)
 """Of the Beta prior over the lapse rate."""
 LAPSE = Parameter(
     name="lapse",

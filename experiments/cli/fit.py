@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from dataclasses import asdict
 from functools import partial
+from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -82,7 +84,7 @@ def _rows(source: Any, models: Any, how: Any, executor: Any, kept: Path | None) 
 
     tasks = tasks_of(models, how)
     with nullcontext() if kept is None else Ledger(kept) as ledger:
-        made = {"walks": source.digest, "level": how.level, "folds": how.folds, "starts": how.starts, "seed": how.seed}
+        made = {"walks": source.digest, **asdict(how), "cogmap": version("cogmap")}
         rows = [] if ledger is None else ledger.begin(dict[str, Any], **made)
         rows = [row for row in rows if (row["model"], row["fold"]) in tasks]
         done = {(row["model"], row["fold"]) for row in rows}
@@ -102,7 +104,8 @@ def _rows(source: Any, models: Any, how: Any, executor: Any, kept: Path | None) 
 
 def _show(result: dict[str, Any]) -> None:
     choices, individuals = result["models"][0]["choices"], result["individuals"]
-    say(f"{choices} choices of {len(individuals)} in {result['world']}", title="fit")
+    home = "" if result["home"] is None else f"; home, between bouts, is {result['home']}"
+    say(f"{choices} choices of {len(individuals)} in {result['world']}{home}", title="fit")
     cells = [
         (
             row["name"],
