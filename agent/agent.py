@@ -516,7 +516,7 @@ class Agent:
         """Teach the map the step, or have it say what the most probable hypothesis says instead."""
         recognition, state, belief = self._recognition, self._state, self.belief
         self._mapper.fade()
-        if not recognition.choose(belief, certainty=self.settings.certainty):
+        if not recognition.choose(belief):
             self._revise(percept)
             return
         state.belief = recognition.weighed(belief)

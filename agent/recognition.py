@@ -22,6 +22,9 @@ from .structure import OpenQuestion
 
 Arrays = dict[str, NDArray[Any]]
 
+DECIDED = 0.8
+"""Probability from which on another hypothesis than the one that is followed changes the map."""
+
 
 class Recognition:
     """Weighs hypotheses about the map, and has the map say what the most probable one says.
@@ -57,18 +60,17 @@ class Recognition:
         sensed = self.sensing.sensed(percept, place=self.mirror.places.get)
         self.tracker.step(sensed, self.sensing.labels())
 
-    def choose(self, belief: Belief, *, certainty: float) -> bool:
+    def choose(self, belief: Belief) -> bool:
         """Follow the hypothesis that goes on from the one followed, and has the agent where `belief` has it.
 
-        Only what is held with `certainty` changes the map's mind, or else it would change to and fro while a question
-        is open.
+        Only what is `DECIDED` changes the map's mind, or else it would change to and fro while a question is open.
 
         Returns:
             Whether there is one; if not, the most probable one is followed from now on.
         """
         before, best = self.followed, self.tracker.best
         candidates = [h for h in self.tracker.hypotheses if self._goes_on(h, belief.place)]
-        agreed = bool(candidates) and (candidates[0] is best or exp(best.weight) < certainty)
+        agreed = bool(candidates) and (candidates[0] is best or exp(best.weight) < DECIDED)
         self.followed = candidates[0] if agreed else best
         self.moved = self._moved(before)
         return agreed

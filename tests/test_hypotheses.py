@@ -107,7 +107,7 @@ def test_the_evidence_of_a_door_is_the_sum_over_its_states(mine, its):
     for here, there in product((True, False), repeat=2):
         prior = (p if here else 1 - p) * (same * (here == there) + (1 - same) * (p if there else 1 - p))
         total += prior * like[here](mine) * like[there](its)
-    assert door_evidence(chances, mine, its) == pytest.approx(log(total), abs=1e-9)
+    assert door_evidence(chances, mine, its, open_=chances.open) == pytest.approx(log(total), abs=1e-9)
 
 
 @pytest.mark.parametrize("scheme", [LATTICE, UNPLACED])

@@ -24,6 +24,9 @@ from .rates import (
 SUREST, LEAST_SURE = 1e-4, 0.45
 """Bounds of the rates of misreading: a reading is never proof, and never worth nothing."""
 
+MOST_MISREAD = 0.33
+"""A sight is right twice in three times at least, or a long corridor would be one place, misread over and over."""
+
 
 class Chances:
     """Expected rates.
@@ -77,7 +80,7 @@ class Chances:
         self.fails, self.astray, self.moved = mean(FAILS), mean(ASTRAY), mean(MOVED)
         self.elsewhere, self.undone, self.new = mean(ELSEWHERE), mean(UNDONE), mean(NEW)
         self.relinked = mean(RELINKED)
-        error = min(max(mean(SIGHT_MISREAD), SUREST), 0.9)
+        error = min(max(mean(SIGHT_MISREAD), SUREST), MOST_MISREAD)
         self.doors: dict[float, float] = {}
         self.labels = tuple(labels)
         self.misread = tuple(error / n for n in labels)

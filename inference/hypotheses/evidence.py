@@ -140,11 +140,11 @@ def _expected_open(h: Hypothesis, key: Key | None, way: int, back: int | None, s
     """P(open) of a way of a place never seen: the door of a neighbour, the way back, or what ways are like here."""
     chances = h.chances
     if way == back:
-        return chances.undone + (1.0 - chances.undone) * chances.open
+        return chances.undone + (1.0 - chances.undone) * h.open(way)
     if key is None or h.scheme.displacements is None or h.scheme.inverse is None:
-        return chances.open
+        return h.open(way)
     position = tuple(x + d for x, d in zip(key[1], h.scheme.displacements[way], strict=True))
     other = h.at.get(h.canonical(key[0], position))
     if other is None:
-        return chances.open
+        return h.open(way)
     return probability(chances.beside + other_side(h, other, h.scheme.inverse[way], NOWHERE))

@@ -159,10 +159,20 @@ def _look(h: Hypothesis, number: int, sensed: Sensed, time: int) -> None:
     ways = tuple(
         way if reading is None else _read(h, way, reading) for way, reading in zip(place.ways, sensed.ways, strict=True)
     )
+    if not place.recent:
+        _count_looks(h, sensed)
     recent = (*place.recent[-RECENT + 1 :], time)
     looked = Place(sights, ways, place.frame, place.position, recent, place.into, place.share)
     h.here = number
     h.put(number, shared(h, number, looked))
+
+
+def _count_looks(h: Hypothesis, sensed: Sensed) -> None:
+    """What a place never seen before says of how often each way is open."""
+    for way, reading in enumerate(sensed.ways):
+        if reading is not None:
+            opened, blocked = h.looks[way]
+            h.looks[way] = (opened + reading, blocked + 1.0 - reading)
 
 
 def seen(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -> SightCounts:

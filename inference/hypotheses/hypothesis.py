@@ -18,6 +18,9 @@ SHARES = (
 )  # fmt: skip
 """Which rate each part of a share counts for, and whether as true."""
 
+OWN = 2.0
+"""Looks at one way that count as much as all looks at any way."""
+
 Key = tuple[int, Position]
 Label = tuple[int, int]
 
@@ -35,6 +38,7 @@ class Hypothesis:
         undo: (times it did, times it did not) that an action led back, by (action, action after it); counted where
             it is not known beforehand which do.
         periods: of the charts that close on themselves, by frame.
+        looks: times each way was read open and blocked at first visits of places.
         here: the place the agent is in.
         crowd: where the agent may be, with log probabilities, if that is open in this map: `here` is the likeliest, and
             nothing is learned of places; None otherwise.
@@ -48,8 +52,8 @@ class Hypothesis:
     """
 
     __slots__ = (
-        "apart", "at", "chances", "counts", "crowd", "digest", "here", "kinds", "links", "origin", "periods", "places",
-        "scheme", "shown", "size", "touched", "undo", "weight",
+        "apart", "at", "chances", "counts", "crowd", "digest", "here", "kinds", "links", "looks", "origin",
+        "periods", "places", "scheme", "shown", "size", "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -61,6 +65,7 @@ class Hypothesis:
         self.counts = RateCounts()
         self.periods: dict[int, Periods] = {}
         self.undo: dict[tuple[int, int], tuple[float, float]] = {}
+        self.looks = [(0.0, 0.0)] * scheme.count
         self.here = NOWHERE
         self.weight = 0.0
         self.size = self.links = self.digest = 0
@@ -76,7 +81,7 @@ class Hypothesis:
         other.scheme, other.chances = self.scheme, self.chances
         other.places, other.at, other.shown = self.places.fork(), self.at.fork(), self.shown.fork()
         other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
-        other.undo = self.undo.copy()
+        other.undo, other.looks = self.undo.copy(), self.looks.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
         other.origin, other.touched, other.digest = None, {}, self.digest
         other.apart, other.crowd = self.apart, self.crowd
@@ -103,6 +108,11 @@ class Hypothesis:
         self.shown.settle()
 
     # -- reading -------------------------------------------------------------------------------------------
+
+    def open(self, way: int) -> float:
+        """P(a way is open) of a place of which nothing is known: some ways are open more often than others."""
+        opened, blocked = self.looks[way]
+        return (opened + OWN * self.chances.open) / (opened + blocked + OWN)
 
     def beyond(self, place: Place, way: int) -> Key | None:
         """The (frame, position) that a way leads to as far as poses say; None without poses."""

@@ -60,9 +60,12 @@ def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
 CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 0.5, 2.0))
 """It hardly ever happens, or else often enough, or else very often."""
 
+READ = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 6.0, 14.0))
+"""The same of a reading, which is right more often than not, or any map whatever would do, misread over and over."""
+
 RATE_PRIORS = (
     _beta("open", 1.0, 1.0, "a way is open"),
-    RatePrior("sight_misread", "a sight is read as another", CALM_OR_NOT),
+    RatePrior("sight_misread", "a sight is read as another", READ),
     _beta("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
     RatePrior("fails", "a move through an open way fails", CALM_OR_NOT),
     RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),

@@ -211,7 +211,7 @@ def _misfit(h: Hypothesis, number: int) -> bool:
     """Whether nothing leads to the place, or one of its ways contradicts the place it leads to or the chart."""
     place = h.places[number]
     if not place.into:
-        return True
+        return number != 0  # the walk began somewhere
     for index, way in enumerate(place.ways):
         if way.to == NOWHERE:
             continue

@@ -54,7 +54,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
     for h in hypotheses:
         _write_maps(out, h, 1)
         out.whole += [h.here, h.size, h.links, h.apart, *h.kinds]
-        out.real += [h.weight, *h.counts.yes, *h.counts.no]
+        out.real += [h.weight, *h.counts.yes, *h.counts.no, *(count for looks in h.looks for count in looks)]
         out.many((h.crowd or {}).items(), out.count)
         for (one, other), counts in h.undo.items():
             out.whole += [one, other]
@@ -231,6 +231,8 @@ def _read_hypothesis(scheme: WayScheme, entry: Mapping[str, Any], shared: Bases,
     h.apart = bool(apart)
     rates = len(RATE_PRIORS)
     h.weight, *counts = source.reals(1 + 2 * rates)
+    looks = source.reals(2 * scheme.count)
+    h.looks = list(zip(looks[::2], looks[1::2], strict=True))
     h.crowd = source.counts() or None
     h.counts = RateCounts(counts[:rates], counts[rates:])
     h.periods = {int(frame): tuple(tuple(int(x) for x in row) for row in rows) for frame, rows in entry["periods"]}
@@ -265,7 +267,8 @@ def _check(h: Hypothesis, changed: Iterable[int]) -> None:
         h: the hypothesis.
         changed: its places that are looked at; the others were found right in another one.
     """
-    if h.places.get(h.here) is None or not all(map(isfinite, (h.weight, *h.counts.yes, *h.counts.no))):
+    looks = (count for both in h.looks for count in both)
+    if h.places.get(h.here) is None or not all(map(isfinite, (h.weight, *h.counts.yes, *h.counts.no, *looks))):
         raise ValueError("its agent is in no place of its map, or counts what is no number")
     for number in changed:
         place = h.places.get(number)

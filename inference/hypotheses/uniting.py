@@ -218,9 +218,9 @@ class Union:
         mine, its = a.ways[index], b.ways[index]
         if not (mine.net or mine.to != NOWHERE) or not (its.net or its.to != NOWHERE):
             return 0.0
-        chances = self.h.chances
+        open_ = self.h.open(index)
         p, q = probability(self._odds(first, a, index)), probability(self._odds(second, b, index))
-        gain = log(p * q / chances.open + (1.0 - p) * (1.0 - q) / (1.0 - chances.open))
+        gain = log(p * q / open_ + (1.0 - p) * (1.0 - q) / (1.0 - open_))
         both = mine.to != NOWHERE and its.to != NOWHERE and self.h.scheme.inverse is not None
         return 0.5 * gain if both and gain > 0.0 else gain
 

@@ -157,16 +157,16 @@ def _doors(united: Union, *, apart: bool) -> float:
                     its = back.net
                     done.add((other, inverse[index]))
             if way.net or its:
-                total += door_evidence(h.chances, way.net, its)
+                total += door_evidence(h.chances, way.net, its, open_=h.open(index))
     return total
 
 
-def door_evidence(chances: Chances, mine: float, its: float) -> float:
+def door_evidence(chances: Chances, mine: float, its: float, *, open_: float) -> float:
     """log P(readings of both sides of a door), but for what is the same for an open and a blocked one.
 
     ρ [π l m + (1 - π) / (l m)] + (1 - ρ) [π l + (1 - π) / l] [π m + (1 - π) / m],  l = exp(net · unit / 2)
     """
-    p, half = chances.open, 0.5 * chances.unit
+    p, half = open_, 0.5 * chances.unit
     one, other = exp(mine * half), exp(its * half)
     same = p * one * other + (1.0 - p) / (one * other)
     apart = (p * one + (1.0 - p) / one) * (p * other + (1.0 - p) / other)
