@@ -65,6 +65,19 @@ def test_an_interrupt_at_any_line_leaves_the_agent_before_the_step_or_after_it(s
             action = twin.step(seen)
 
 
+def test_an_interrupt_before_the_step_has_changed_anything_undoes_nothing() -> None:
+    """What the step before has noted down is not taken back instead."""
+    world, agent = begun("4x4_alias", 14, 3, {})
+    before, seen = content(agent), {**world.observe(), "sight": 3}
+    agent.step(seen)
+    assert content(agent) != before
+    before = content(agent)
+    for line in range(20, 420, 20):
+        torn = copy.deepcopy(agent)
+        assert was_interrupted(lambda torn=torn: torn.step(seen), line)
+        assert content(torn) == before, line
+
+
 def test_each_part_of_a_step_is_whole() -> None:
     world, agent = begun(*STARTS[0])
     seen = world.observe()
