@@ -56,6 +56,8 @@ class Motions:
     def __post_init__(self) -> None:
         if not self.names:
             raise CogmapError("motions: give at least one action, and one displacement for each name")
+        if not all(isinstance(name, str) for name in self.names):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise CogmapError(f"motions: names are {self.names}; give each action a word")
         if len(set(self.names)) < len(self.names):
             raise CogmapError(f"motions: names repeat in {self.names}; make them unique")
         object.__setattr__(self, "placed", bool(self.displacements))

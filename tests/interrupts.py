@@ -43,6 +43,15 @@ def interrupted(work: Callable[[], object], line: int) -> int:
     return count
 
 
+def was_interrupted(work: Callable[[], object], line: int) -> bool:
+    """Whether the work got as far as that line: the next time it may have fewer, as something was looked up."""
+    try:
+        interrupted(work, line)
+    except Interrupt:
+        return True
+    return False
+
+
 def lines_of(work: Callable[[], object]) -> int:
     """How many lines the work has."""
     return interrupted(work, -1)

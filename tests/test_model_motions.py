@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from cogmap.agent import Agent
@@ -57,3 +58,9 @@ def test_an_agent_with_such_actions_has_no_pose(reverse: tuple[int, ...], tmp_pa
     assert twin.step(told) == agent.step(told)
     with pytest.raises(CogmapError, match="no displacements"):
         Agent(spec("on", "back", "stay", reverse=reverse), pose=Lattice())
+
+
+@pytest.mark.parametrize("name", [1, None, ("a", "b"), b"up"])
+def test_names_of_actions_are_words(name: Any) -> None:
+    with pytest.raises(CogmapError, match="give each action a word"):
+        Motions((name, "stay"), ((1,), (0,)))

@@ -128,6 +128,7 @@ class Tracker:
 
     def checkpoint(self) -> Checkpoint:
         """What `rollback` needs to undo the next step; it costs as much as there are hypotheses."""
+        self._overwritten = []  # what the step before has overwritten is not to be put back
         kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
         kept += self._clear, self._quiet, self._past
         return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
