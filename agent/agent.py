@@ -582,7 +582,7 @@ class Agent:
             information_weight=settings.information_weight,
             starts=settings.starts,
             cache=self._cache,
-            structure=self._recognition.question,
+            structure=None if preferences else self._recognition.question,  # what is preferred comes first
         )
 
 

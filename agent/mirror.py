@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..inference import NOWHERE, Hypothesis, Place, open_probability
+from ..inference import NOWHERE, Hypothesis, Place, open_probability, whereabouts
 from ..model import CognitiveMap, Growth, Position, Ways, Whereabouts
 
 WALKS = 3
@@ -75,8 +75,7 @@ class Mirror:
 
     def place(self, h: Hypothesis) -> int | None:
         """The place of the map where a hypothesis has the agent; None for one that the map does not have."""
-        known = self._records.get(h.here)
-        return self.places[h.here] if known is not None and (known.frame, known.position) == self._key(h) else None
+        return self._place(h, h.here)
 
     def grows(self, h: Hypothesis, place: int) -> bool:
         """Whether a step that only adds to the map leads to `place` of it, as the hypothesis has it."""
@@ -102,19 +101,26 @@ class Mirror:
             here: the place of the map where the first one has the agent.
         """
         best = hypotheses[0][0]
-        at = self._key(best)
         mass, elsewhere = dict[int, float](), 0.0
         for h, p in hypotheses:
-            place = here if h.here == best.here and self._key(h) == at else self.place(h)
-            if place is None:
-                elsewhere += p
-            else:
-                mass[place] = mass.get(place, 0.0) + p
+            for number, share in whereabouts(h).items():
+                same = number == best.here and self._key(h, number) == self._key(best, number)
+                place = here if same else self._place(h, number)
+                if place is None:
+                    elsewhere += p * share
+                else:
+                    mass[place] = mass.get(place, 0.0) + p * share
         return mass, elsewhere
 
-    def _key(self, h: Hypothesis) -> tuple[int, Position]:
-        here = h.places[h.here]
-        return here.frame, here.position
+    def _key(self, h: Hypothesis, number: int) -> tuple[int, Position]:
+        record = h.places[number]
+        return record.frame, record.position
+
+    def _place(self, h: Hypothesis, number: int) -> int | None:
+        """The place of the map that a place of a hypothesis is; None where the map does not have it."""
+        known = self._records.get(number)
+        same = known is not None and (known.frame, known.position) == self._key(h, number)
+        return self.places.get(number) if same else None
 
     def steps_in(self, place: int) -> tuple[int, ...]:
         """The last steps at which the agent was in a place of the map, if the map is right; a handful at most."""

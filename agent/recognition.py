@@ -22,6 +22,9 @@ from .structure import OpenQuestion
 
 Arrays = dict[str, NDArray[Any]]
 
+HARDLY = 0.03
+"""Rate of misread ways up to which the last look at one is believed."""
+
 DECIDED = 0.8
 """Probability from which on another hypothesis than the one that is followed changes the map."""
 
@@ -44,6 +47,7 @@ class Recognition:
         self.mirror = Mirror(map_, growth, self.sensing.actions)
         self.followed: Hypothesis | None = None
         self.moved = False
+        self._looked: tuple[bool | float | None, ...] | None = None
 
     @property
     def rates(self) -> list[RateOf]:
@@ -58,6 +62,7 @@ class Recognition:
     def take_in(self, percept: Percept) -> None:
         """Weigh the hypotheses by what a step brought; the map stays as it is."""
         sensed = self.sensing.sensed(percept, place=self.mirror.places.get)
+        self._looked = percept.open
         self.tracker.step(sensed, self.sensing.labels())
 
     def choose(self, belief: Belief) -> bool:
@@ -93,8 +98,15 @@ class Recognition:
 
     @property
     def doors(self) -> Doors:
-        """For each action whether its way is believed open here, or how much so; None where nothing is known of it."""
-        return self.mirror.doors(self._now, self._now.here)
+        """For each action whether its way is believed open here, or how much so; None where nothing is known of it.
+
+        Where ways are hardly ever misread the last look says it: a door that closes is not taken for a wrong reading.
+        """
+        doors = self.mirror.doors(self._now, self._now.here)
+        if self._looked is None or self._now.chances.wrong > HARDLY:
+            return doors
+        seen = zip(self._looked, doors, strict=True)
+        return tuple(bool(look) if look in (0, 1) else door for look, door in seen)
 
     def open(self, percept: Percept) -> tuple[bool, ...]:
         """For each action whether its way may be open now: neither sensed nor believed shut."""

@@ -27,6 +27,9 @@ class GivenPreferences:
     places: Mapping[int, float] = field(default_factory=dict[int, float])
     sensors: Mapping[str, Mapping[Hashable, float]] = field(default_factory=dict[str, Mapping[Hashable, float]])
 
+    def __bool__(self) -> bool:
+        return bool(self.sights or self.places or self.sensors)
+
 
 @dataclass(frozen=True, slots=True)
 class Choice:

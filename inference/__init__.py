@@ -22,6 +22,7 @@ from .hypotheses import (
     open_probability,
     rates_of,
     tracker_knowing,
+    whereabouts,
 )
 from .learning import Fit, fit
 from .message import Belief, FilterOptions, Message
@@ -71,4 +72,5 @@ __all__ = [
     "open_probability",
     "rates_of",
     "tracker_knowing",
+    "whereabouts",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import log
 
 from .branches import Alternative
@@ -164,7 +165,19 @@ def _look(h: Hypothesis, number: int, sensed: Sensed, time: int) -> None:
     recent = (*place.recent[-RECENT + 1 :], time)
     looked = Place(sights, ways, place.frame, place.position, recent, place.into, place.share)
     h.here = number
+    _turn(h, place, ways)
     h.put(number, shared(h, number, looked))
+
+
+def _turn(h: Hypothesis, before: Place, ways: Sequence[Way]) -> None:
+    """A door that was found to have changed has changed on its other side too."""
+    if h.scheme.inverse is None:
+        return
+    for index, (old, new) in enumerate(zip(before.ways, ways, strict=True)):
+        if old.net * new.net < 0.0 and (other := h.neighbour(before, index)) != NOWHERE:
+            there, back = h.places[other], h.scheme.inverse[index]
+            if there.ways[back].net * new.net < 0.0:
+                h.put(other, with_way(there, back, there.ways[back]._replace(net=new.net)))
 
 
 def _count_looks(h: Hypothesis, sensed: Sensed) -> None:
