@@ -306,7 +306,8 @@ class Agent:
         state.begun, state.revised = len(self.map.changes), False
         self.map.grow_time(step=state.steps)
         percept = percept_of(values, self.map, action=state.action, open_=state.open, step=state.steps)
-        self._recognition.take_in(percept)
+        if self.settings.hypotheses is not None:
+            self._recognition.take_in(percept)
         self._infer(percept)
         self._teach(percept)
         state.percept, state.acted, state.choice, self._plan = percept, False, None, None
@@ -488,6 +489,8 @@ class Agent:
         restore_map(agent.map, header["map"], arrays)
         agent.rng.bit_generator.state = header["rng"]
         agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)
+        if agent.settings.hypotheses is None:
+            return agent
         if "recognition" in header:
             agent._recognition.restore(header["recognition"], arrays)
         elif agent._state.belief is not None:
@@ -516,11 +519,19 @@ class Agent:
         """Teach the map the step, or have it say what the most probable hypothesis says instead."""
         recognition, state, belief = self._recognition, self._state, self.belief
         self._mapper.fade()
+        if self.settings.hypotheses is None:
+            self._remember(percept)
+            if self._located:
+                doors = percept.open or (None,) * len(self.map.motions)
+                self._mapper.learn(belief, percept, doors, step=state.steps)
+            return
         if not recognition.choose(belief):
             self._revise(percept)
             return
         state.belief = recognition.weighed(belief)
         self._remember(percept)
+        if recognition.lost:
+            return
         if belief.message.certainty < self.settings.certainty:
             recognition.missed()
             return

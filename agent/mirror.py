@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..inference import NOWHERE, Hypothesis, Place, open_probability, whereabouts
-from ..model import CognitiveMap, Growth, Position, Ways, Whereabouts
+from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 
 WALKS = 3
 """Walks along a way from which on more of them add nothing to its counts."""
@@ -85,6 +88,10 @@ class Mirror:
         at = self.position(h, h.here)
         alone = not self._map.visited[place] and (at is None or self._map.pose.place_at(at) == place)
         return alone and not self._off(h)
+
+    def holds(self, h: Hypothesis, place: int) -> bool:
+        """Whether `place` of the map is one of those where a hypothesis that has lost the agent may have it."""
+        return any(self._place(h, number) == place for number in whereabouts(h))
 
     def _off(self, h: Hypothesis) -> bool:
         """Whether the agent came to the place where it is by a way that leads where the pose does not say."""
@@ -234,7 +241,7 @@ class Mirror:
     # -- building ------------------------------------------------------------------------------------------
 
     def _rebuild(self, h: Hypothesis, *, step: int) -> dict[int, int]:
-        before = self.places
+        before, kept = self.places, self._kept()
         self._map.clear(step=step)
         self._map.pose.close(h.periods.get(0, ()))
         self.places = {}
@@ -242,7 +249,22 @@ class Mirror:
         for number in numbers:
             self._add(h, number, step=step)
         self._teach(h, numbers, step=step)
+        for number in numbers:
+            if number in before:
+                self._give_back(kept, before[number], self.places[number])
         return {before[number]: self.places[number] for number in numbers if number in before}
+
+    def _kept(self) -> dict[Column, NDArray[Any]]:
+        """What sensors hold of places that are neither sights nor ways, of which hypotheses have no records."""
+        known = {*self._map.sights_sensed, self.ways}
+        stores = [store for sensor in self._map.sensors.values() if sensor not in known for store in sensor.stores]
+        return {store: store.values.copy() for store in stores if isinstance(store, Column)}
+
+    def _give_back(self, kept: Mapping[Column, NDArray[Any]], before: int, now: int) -> None:
+        for store, values in kept.items():
+            row = values[before]
+            for at in np.ndindex(row.shape):
+                store.set((now, *at) if at else now, row[at].item())
 
     def _add(self, h: Hypothesis, number: int, *, step: int) -> None:
         """A place of the map for one of the hypothesis: an imagined one, if there is one where it is."""

@@ -40,7 +40,7 @@ class Recognition:
         moved: whether it has the agent moved by someone else in the last step.
     """
 
-    def __init__(self, map_: CognitiveMap, growth: Growth, options: TrackerOptions) -> None:
+    def __init__(self, map_: CognitiveMap, growth: Growth, options: TrackerOptions | None) -> None:
         self._map = map_
         self.sensing = Sensing(map_)
         self.tracker = Tracker(self.sensing.scheme, options)
@@ -81,8 +81,14 @@ class Recognition:
         return agreed
 
     def _goes_on(self, h: Hypothesis, place: int) -> bool:
-        goes_on = h.origin is self.followed and not self.mirror.missed
-        return goes_on and self.mirror.grows(h, place)
+        if h.origin is not self.followed or self.mirror.missed:
+            return False
+        return self.mirror.holds(h, place) if h.crowd else self.mirror.grows(h, place)
+
+    @property
+    def lost(self) -> bool:
+        """Whether it is open where in its map the followed hypothesis has the agent; it learns nothing then."""
+        return bool(self._now.crowd)
 
     def _moved(self, before: Hypothesis | None) -> bool:
         """Whether the agent was moved, as the hypothesis that is followed has it."""
@@ -111,6 +117,8 @@ class Recognition:
     def open(self, percept: Percept) -> tuple[bool, ...]:
         """For each action whether its way may be open now: neither sensed nor believed shut."""
         sensed = percept.passable or (True,) * len(self._map.motions)
+        if self.followed is None:
+            return sensed
         return tuple(is_open and door for is_open, door in zip(sensed, passable(self.doors), strict=True))
 
     def compared(self) -> tuple[MapHypothesis, ...]:
@@ -122,14 +130,14 @@ class Recognition:
     def question(self) -> OpenQuestion | None:
         """What is worth telling apart; None where nothing is, or new places are left to see, which tell as well."""
         hypotheses = self.tracker.hypotheses
-        if len(hypotheses) == 1 or not self._map.visited.all():
+        if len(hypotheses) < 2 or not self._map.visited.all():
             return None
         return OpenQuestion(hypotheses, self.sensing.ways)
 
     def asked(self, graph: FactorGraph, *, step: int) -> FactorGraph:
         """The graph of the window with the question which hypothesis is right, if that is open."""
         hypotheses = self.tracker.hypotheses
-        if len(hypotheses) == 1:
+        if len(hypotheses) < 2:
             return graph
         weights = [exp(h.weight) for h in hypotheses]
         places = [self.mirror.place(h) for h in hypotheses]

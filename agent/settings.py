@@ -30,7 +30,8 @@ class Settings:
         window: W, time steps of the factor graph that is kept.
         engine: sum-product engine of the window: `numpy` or `gtsam`.
         filter: displacement prior, slip and support of the forward filter (ours).
-        hypotheses: how many hypotheses about the map are kept.
+        hypotheses: how many hypotheses about the map are kept; None for an agent whose map is never in question, as in
+            the paper: a place is then its position.
         priors: concentrations before evidence (ours; the paper starts from the shape of its matrices).
         discount: weight of each step of a policy relative to the one before (ours; paper: 1).
         goal_weight: weight of the utility term: how much it exploits (paper: 1, and 2 in the Tolman maze).
@@ -50,7 +51,7 @@ class Settings:
     window: int = 10
     engine: str = "numpy"
     filter: FilterOptions = field(default_factory=FilterOptions)
-    hypotheses: TrackerOptions = field(default_factory=TrackerOptions)
+    hypotheses: TrackerOptions | None = field(default_factory=TrackerOptions)
     priors: Priors = field(default_factory=Priors)
     discount: float = 0.95
     goal_weight: float = 1.0
@@ -59,6 +60,8 @@ class Settings:
 
     def __post_init__(self) -> None:
         for name, kind in _NESTED.items():
+            if name == "hypotheses" and self.hypotheses is None:
+                continue
             _check(isinstance(getattr(self, name), kind), name, getattr(self, name), f"use a {kind.__name__}")
         for name, most in _MOST.items():
             value = getattr(self, name)
@@ -86,7 +89,7 @@ class Settings:
         """
         given = _known(cls, values)
         for name, kind in _NESTED.items():
-            if name in given:
+            if given.get(name) is not None:
                 parts = _known(kind, given[name])
                 given[name] = kind(**{key: tuple(v) if isinstance(v, list) else v for key, v in parts.items()})
         return cls(**given)

@@ -106,7 +106,7 @@ def exploring_rows(name: str, maze: Maze, runs: int) -> list[Row]:
         if probability is None:
             done = [moved_while_exploring(maze, seed) for seed in range(runs)]
         else:
-            with patch("cogmap.agent.agent.DECISIVE", probability):
+            with patch("cogmap.agent.recognition.DECIDED", probability):
                 done = [moved_while_exploring(maze, seed) for seed in range(runs)]
         rows.append({"changes its mind": label, "right": sum(right for right, _ in done), "wrong": _mean(done)})
     return rows

@@ -80,7 +80,7 @@ def test_nothing_is_believed_or_planned_before_the_first_step() -> None:
 
 @pytest.mark.parametrize("motions", [None, {}, {"stay": (0,), "left": (-1,)}, 3])
 def test_motions_that_make_no_sense(motions: Any) -> None:
-    with pytest.raises(CogmapError, match=r"^motions: "):
+    with pytest.raises(CogmapError, match=r"^(motions|agent): "):
         Agent(motions)
 
 

@@ -46,7 +46,7 @@ def test_a_sensor_outside_of_the_package(tmp_path: Path, monkeypatch: pytest.Mon
         right += agent.map.position(agent.belief.place) == (row - start[0], column - start[1])
         t = agent.steps - 1
         posterior = infer(agent.graph).marginal(f"s{t}")
-        np.testing.assert_allclose(posterior.max(), agent.belief.certainty, atol=1e-9)
+        np.testing.assert_allclose(posterior.max(), agent.belief.message.certainty, atol=1e-9)
     assert right >= 6  # sights alone leave it guessing
     with pytest.raises(CogmapError, match="the file has a sensor 'Thermometer', which is not of this library"):
         Agent.load(tmp_path / "warm.npz")
@@ -88,7 +88,7 @@ def test_an_agent_without_positions_walks_plans_and_is_saved(name: str, tmp_path
         assert all(agent.map.position(place) is None for place in agent.map.places)
         assert not [variable for variable in agent.graph.variables if variable.name.startswith("p")]
         posterior = infer(agent.graph).marginal(f"s{agent.steps - 1}")
-        np.testing.assert_allclose(posterior.max(), agent.belief.certainty, atol=1e-9)
+        np.testing.assert_allclose(posterior.max(), agent.belief.message.certainty, atol=1e-9)
     agent.save(tmp_path / "map.npz")
     again = Agent.load(tmp_path / "map.npz")
     seen = world.observe()

@@ -92,7 +92,7 @@ class AgainstBruteForce(RuleBasedStateMachine):
     def save_and_restore(self) -> None:
         restored = SparseDirichlet(slots=self.slots, background=self.background, outcomes=self.size)
         restored.resize(len(self.table))
-        restored.restore(self.table.state())
+        restored.restore(self.table.state(), least=-1)
         self.table = restored
 
     def alpha(self, row: int, key: int) -> float:

@@ -13,7 +13,7 @@ import pytest
 from charts import row
 from cogmap.agent import Agent, Settings
 from cogmap.inference import infer
-from cogmap.model import CogmapError, Sight, Ways, decode, encode
+from cogmap.model import CogmapError, Sight, Ways, decode, encode, window_graph
 from cogmap.views import Recorder, Recording
 from cogmap.worlds import load_world
 from recordings import close_elsewhere, eventful, eventful_walk, kidnaps, outline, probabilities, recorded
@@ -68,7 +68,7 @@ def test_little_is_written_where_nothing_is_new(recording: Recording) -> None:
 
 def test_the_window_is_rebuilt_at_every_step() -> None:
     graphs: list[Any] = []
-    kept = eventful(steps=60, after=lambda agent: graphs.append(agent.graph))
+    kept = eventful(steps=60, after=lambda agent: graphs.append(window_graph(agent.map, agent.window)))
     scopes: dict[str, tuple[str, str, tuple[str, ...]]] = {}
     times: dict[str, int] = {}
     tops: dict[str, tuple[Any, float]] = {}

@@ -8,7 +8,7 @@ from os import PathLike
 from typing import Any
 
 from ..agent import Agent, StepRecord
-from ..model import CogmapError, decode, encode, plain, shown
+from ..model import CogmapError, decode, encode, plain, shown, window_graph
 from ..worlds import Chart, Place
 from .map_picture import KNOWN, MapPicture
 from .recording_check import check
@@ -127,7 +127,7 @@ class Recorder:
         frame |= {
             "map": self._map.update(agent.map),
             "plan": plan_frame(agent.plan),
-            "window": self._window.delta(agent.graph),
+            "window": self._window.delta(window_graph(agent.map, agent.window)),
         }
         self._frames.append(frame)
 

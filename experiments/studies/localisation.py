@@ -159,6 +159,7 @@ def _with(agent: Agent, door_floor: float, displacement: float) -> Agent:
     header, arrays = agent.state()
     header["settings"]["priors"]["door_floor"] = door_floor
     header["settings"]["filter"]["displacement"] = displacement
+    header["settings"]["hypotheses"] = None  # the map is known, and not in question
     return Agent.from_state(header, arrays)
 
 
