@@ -16,7 +16,7 @@ from golden.recordings import read_recordings, write_recordings
 from golden.walking import Walk, walked
 from golden.walks import FEW, GROUPS, RELOADED, WALKS
 
-NAME, STEP = "moved early, donut, seed 1", 19
+NAME, STEP = "moved early, donut, seed 1", 12
 """A short walk, and the step of it that teaches most: it takes back what it had learned."""
 
 
@@ -60,11 +60,11 @@ def test_every_walk_is_recorded_once() -> None:
 def test_the_recordings_hold_what_matters() -> None:
     walks = {name: steps_of(name) for name in WALKS}
     every = [facts for steps in walks.values() for facts in steps]
-    assert sum(any(facts["retracted"] is not None for facts in steps) for steps in walks.values()) >= 12
+    assert sum(any(facts["revised"] for facts in steps) for steps in walks.values()) >= 12
     grown = {kind for facts in every for kind, _ in facts["grown"]}
-    assert grown == {"time", "sight", "position", "place", "bind", "unbind", "retract"}
+    assert grown == {"time", "sight", "position", "place", "bind", "retract"}
     assert {change.split()[0] for facts in every for change in facts["learned"]} == {"A_o", "A_p", "B_s"}
-    for fact, least, times in [("moved", 0.9, 100), ("doubt", 0.001, 400), ("left_out", 0.1, 4), ("cut", 1, 40)]:
+    for fact, least, times in [("moved", 0.9, 50), ("doubt", 0.001, 400), ("left_out", 0.1, 4), ("cut", 1, 40)]:
         assert sum(facts[fact] >= least for facts in every) >= times, fact
     assert sum(facts["certainty"] < 0.7 for facts in every) >= 20
     for term in ("state_information", "sight_information", "transition_information", "utility", "collision"):
@@ -96,7 +96,7 @@ PERTURBED: dict[str, Callable[[Facts], Any]] = {
     "learned[A_o 3 1 -1]": lambda facts: facts["learned"].update({"A_o 3 1 -1": 1e-8}),
     "grown[0][1]": lambda facts: facts["grown"][0].__setitem__(1, 1000),
     "grown ": lambda facts: facts["grown"].append(["place", 5]),
-    "retracted": lambda facts: facts.update(retracted=None),
+    "revised": lambda facts: facts.update(revised=not facts["revised"]),
 }
 
 

@@ -188,7 +188,7 @@ CLOSED = {
         start=(6, 2),
         steps=60,
         settings={"look_ahead": 13, "goal_weight": 2.0},
-        events=[(28, "prefer", {"sights": {0: 3.0}}), (28, "close_room", (3, 2)), (46, "open_room", (3, 2))],
+        events=[(28, "prefer", {"sights": {0: 3.0}}), (29, "close_room", (3, 2)), (46, "open_room", (3, 2))],
     ),
     "closed while it is elsewhere": Walk(
         world="4x4_alias",
