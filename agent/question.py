@@ -31,7 +31,7 @@ def with_question(
     s, h, here = f"s{step}", f"h{step}", f"here{step}"
     known = graph.variable_named(s).domain
     others = {place for number, place in enumerate(places) if number != followed}
-    domain = [*known, *sorted(place for place in others - {None} if place not in known)]
+    domain = [*known, *sorted(place for place in others if place is not None and place not in known)]
     domain += [ELSEWHERE] if None in others else []
     table = np.zeros((len(domain), len(weights), len(known)))
     for number, place in enumerate(places):

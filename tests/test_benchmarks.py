@@ -71,13 +71,13 @@ def test_inference_engines_agree(tmp_path: Path) -> None:
 
 
 def test_ablations(tmp_path: Path) -> None:
-    _, result = measured("ablations.py", tmp_path, "commit", "rates", "--mazes", "3x3", "comb", "--runs", "1")
+    _, result = measured("ablations.py", tmp_path, "commit", "rates", "--mazes", "3x3", "t_maze", "--runs", "1")
     rows = [(row["ablation"], row["maze"], row["variant"]) for row in result["rows"]]
     assert rows[:4] == [
         ("commit", "3x3", "committed"),
         ("commit", "3x3", "kept apart"),
-        ("commit", "comb", "committed"),
-        ("commit", "comb", "kept apart"),
+        ("commit", "t_maze", "committed"),
+        ("commit", "t_maze", "kept apart"),
     ]
     assert [variant for _, _, variant in rows[4:]] == ["table", "text"] * 2
     assert all(row["runs"] == 1 and row["completed"] == 1 for row in result["rows"])
