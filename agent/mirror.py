@@ -254,6 +254,10 @@ class Mirror:
                 self._give_back(kept, before[number], self.places[number])
         return {before[number]: self.places[number] for number in numbers if number in before}
 
+    def _ahead(self, source: int, way: int) -> Position | None:
+        """Where a way leads as the pose of the map has it."""
+        return self._map.pose.ahead(self.places[source], self._actions[way])[0]
+
     def _kept(self) -> dict[Column, NDArray[Any]]:
         """What sensors hold of places that are neither sights nor ways, of which hypotheses have no records."""
         known = {*self._map.sights_sensed, self.ways}
@@ -274,7 +278,7 @@ class Mirror:
             return
         there = None if at is None else map_.pose.place_at(at)
         for source, way in sorted(h.places[number].into):
-            if there is None and source in self.places and at is not None:
+            if there is None and source in self.places and self._ahead(source, way) == at is not None:
                 self._growth.enter(map_, Whereabouts({self.places[source]: 1.0}), self._actions[way], step=step)
                 there = map_.pose.place_at(at)
         self.places[number] = map_.new_place(at, step=step) if there is None else there
