@@ -443,6 +443,8 @@ class Agent:
         Raises:
             CogmapError: no such file, or it is no saved map, truncated, or from a newer schema.
         """
+        if not isinstance(settings, Settings | None):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise CogmapError(f"load: settings is {settings!r}; give Settings(...), or none for those in the file")
         with storage.reading(path) as (header, arrays):
             return cls.from_state(
                 header, arrays, sensors=sensors, pose=pose, growth=growth, planner=planner, settings=settings
@@ -463,8 +465,9 @@ class Agent:
             "rng": self.rng.bit_generator.state,
             "map": map_,
             "state": pack(self._state, arrays, "state"),
-            "recognition": self._recognition.state(arrays),
         }
+        if self.settings.hypotheses is not None:
+            header["recognition"] = self._recognition.state(arrays)
         return header, arrays
 
     @classmethod
@@ -489,12 +492,13 @@ class Agent:
         restore_map(agent.map, header["map"], arrays)
         agent.rng.bit_generator.state = header["rng"]
         agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)
-        if agent.settings.hypotheses is None:
-            return agent
+        recognition = agent._recognition
         if "recognition" in header:
-            agent._recognition.restore(header["recognition"], arrays)
-        elif agent._state.belief is not None:
-            agent._recognition.know(agent._state.belief.place, step=agent._state.steps)
+            recognition.restore(header["recognition"], arrays)
+        if agent.settings.hypotheses is None:
+            recognition.forget()
+        elif recognition.followed is None and agent._state.belief is not None:
+            recognition.know(agent._state.belief.place, step=agent._state.steps)
         return agent
 
     def __repr__(self) -> str:

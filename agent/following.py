@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inference import Belief
-from ..model import CognitiveMap, Slice
+from ..model import CogmapError, CognitiveMap, Slice
 from ..planning import Plan
 
 
@@ -68,8 +68,11 @@ def follow(agent: Perceiver, walk: Iterable[Mapping[str, Any]]) -> Iterator[Foll
         walk: what was sensed at each step; from the second on `taken` says which action led there.
 
     Raises:
-        CogmapError: an observation that `Agent.perceive` refuses, such as one that does not say what was `taken`.
+        CogmapError: no walk, or an observation that `Agent.perceive` refuses, such as one that does not say what was
+            `taken`.
     """
+    if not isinstance(walk, Iterable):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise CogmapError(f"follow: the walk is a {type(walk).__name__}; give observations, one a step")
     for observation in walk:
         belief = agent.perceive(observation)
         plan, stay = agent.plan, agent.map.motions.stay

@@ -10,7 +10,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import Belief, Hypothesis, Message, Place, RateOf, Tracker, TrackerOptions, rates_of, tracker_knowing
+from ..inference import (
+    Belief,
+    Hypothesis,
+    Message,
+    Place,
+    RateOf,
+    Tracker,
+    TrackerOptions,
+    rates_of,
+    tracker_knowing,
+    ways_misread,
+)
 from ..model import CognitiveMap, FactorGraph, Growth, Percept
 from .checks import check_recognition
 from .hypotheses import MapHypothesis, compared
@@ -22,8 +33,8 @@ from .structure import OpenQuestion
 
 Arrays = dict[str, NDArray[Any]]
 
-HARDLY = 0.03
-"""Rate of misread ways up to which the last look at one is believed."""
+HARDLY = 1.5
+"""Ways that were misread so far, as is expected, up to which the last look at one is believed."""
 
 DECIDED = 0.8
 """Probability from which on another hypothesis than the one that is followed changes the map."""
@@ -109,7 +120,7 @@ class Recognition:
         Where ways are hardly ever misread the last look says it: a door that closes is not taken for a wrong reading.
         """
         doors = self.mirror.doors(self._now, self._now.here)
-        if self._looked is None or self._now.chances.wrong > HARDLY:
+        if self._looked is None or ways_misread(self._now) > HARDLY:
             return doors
         seen = zip(self._looked, doors, strict=True)
         return tuple(bool(look) if look in (0, 1) else door for look, door in seen)
@@ -223,6 +234,11 @@ class Recognition:
         if self.followed is not None:
             self.mirror.restore(self.followed, places, missed=missed)
         self.moved = state["moved"]
+
+    def forget(self) -> None:
+        """Have no hypotheses."""
+        self.tracker = Tracker(self.sensing.scheme, self.tracker.options)
+        self.mirror.places, self.followed, self.moved = {}, None, False
 
     @property
     def start(self) -> Message | None:

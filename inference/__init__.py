@@ -22,6 +22,7 @@ from .hypotheses import (
     open_probability,
     rates_of,
     tracker_knowing,
+    ways_misread,
     whereabouts,
 )
 from .learning import Fit, fit
@@ -72,5 +73,6 @@ __all__ = [
     "open_probability",
     "rates_of",
     "tracker_knowing",
+    "ways_misread",
     "whereabouts",
 ]

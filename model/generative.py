@@ -211,7 +211,7 @@ class GenerativeModel:
 
     def check_place(self, place: int) -> None:
         """Raise `CogmapError` where there is no such place."""
-        if not 0 <= place < self._size:
+        if place not in self.places:
             raise CogmapError(f"map: there is no place {place!r}; places are 0 to {self._size - 1}")
 
     # -- learning ------------------------------------------------------------------------------------------

@@ -10,8 +10,8 @@ import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.experiments import Trail, Verdict
 from cogmap.experiments.running import Moment
-from cogmap.inference import infer
-from cogmap.model import NoPose
+from cogmap.inference import TrackerOptions, infer
+from cogmap.model import CogmapError, NoPose
 from cogmap.worlds import NoisyWorld, load_world, place_of, torus
 
 
@@ -130,3 +130,59 @@ def test_the_last_steps_in_a_place_are_those_of_its_room() -> None:
         observation, *_, info = world.step(action)
     for place in agent.map.visited_places.tolist():
         assert len({rooms[step] for step in agent.steps_in(place)}) == 1
+
+
+def test_an_agent_whose_map_is_never_in_question_is_saved_and_told_otherwise(tmp_path: Path) -> None:
+    world, path = load_world("4x4_alias"), tmp_path / "agent.npz"
+    paper = Settings(hypotheses=None)
+    agent = Agent(world.motions, settings=paper, seed=0)
+    walked(world, agent, 20)
+    assert (agent.hypotheses, agent.learned_rates) == ((), ())
+    agent.save(path)
+    seen = world.observe()
+    assert Agent.load(path).settings == paper
+    assert Agent.load(path).step(seen) == agent.step(seen)
+    doubting = Agent.load(path, settings=Settings())
+    doubting.step(seen)
+    assert doubting.hypotheses
+    assert doubting.certain
+    doubting.save(path)
+    again = Agent.load(path, settings=paper)
+    again.step(seen)
+    assert again.hypotheses == ()
+    with pytest.raises(CogmapError, match=r"^load: settings is 3; give Settings"):
+        Agent.load(path, settings=3)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("rate", [0.01, 0.03])
+def test_doors_that_are_seldom_misread_do_not_leave_the_map_wrong(rate: float) -> None:
+    world = NoisyWorld(load_world("4x4"), door=rate)
+    agent = Agent(world.unwrapped.motions, settings=Settings(look_ahead=3), seed=2)
+    trail = walked(world, agent, 150, seed=2)
+    exact(agent, trail, world)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"most": 0},
+        {"most": True},
+        {"most": "x"},
+        {"folded": 1.5},
+        {"least": None},
+        {"doubt": float("nan")},
+        {"calm": 1},
+    ],
+)
+def test_options_of_hypotheses_that_cannot_work(options: dict[str, Any]) -> None:
+    with pytest.raises(CogmapError, match=r"^tracker: "):
+        TrackerOptions(**options)
+
+
+def test_what_is_no_place_and_no_walk() -> None:
+    agent = Agent(load_world("3x3").motions, seed=0)
+    for place in (99, -1, "a"):
+        with pytest.raises(CogmapError, match=f"no place {place!r}"):
+            agent.steps_in(place)  # type: ignore[arg-type]
+    with pytest.raises(CogmapError, match="the walk is a NoneType"):
+        next(agent.follow(None))  # type: ignore[arg-type]

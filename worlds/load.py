@@ -14,7 +14,7 @@ from .errors import WorldError
 from .graph import GraphWorld, Layout, is_graph_file, read_graph
 from .maze import Maze
 from .protocol import Chart
-from .sights import Sights
+from .sights import Sights, give_sights
 from .text_styles import read_maze
 
 
@@ -42,8 +42,10 @@ def load_world(
         strong: refuse graphs that are not strongly connected.
 
     Raises:
-        WorldError: neither a name nor a file, or a file that has no such world in it.
+        WorldError: sights that cannot be given, neither a name nor a file, or a file that has no such world in it.
     """
+    if sights is not None:
+        give_sights(sights, ())  # is it any of the three
     if isinstance(name_or_path, str) and name_or_path in MAZES:
         return MazeEnv(MAZES[name_or_path], render_mode=render_mode)
     if not isinstance(name_or_path, (str, Path)):  # pyright: ignore[reportUnnecessaryIsInstance]

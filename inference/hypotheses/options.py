@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
-from ...model import CogmapError
+from ...model import CogmapError, is_number
 
 if TYPE_CHECKING:
     from .hypothesis import Hypothesis
+
+
+TINY = 1e-15
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +37,13 @@ class TrackerOptions:
     calm: bool = True
 
     def __post_init__(self) -> None:
-        if not (self.most >= 1 and 0.0 < self.least < 1.0 and 0.0 < self.doubt < 1.0 and self.folded >= 0):
-            raise CogmapError(f"tracker: {self} cannot work; give most >= 1, 0 < least < 1, 0 < doubt < 1, folded >= 0")
+        whole = all(type(number) is int for number in (self.most, self.folded)) and isinstance(self.calm, bool)  # pyright: ignore[reportUnnecessaryIsInstance]
+        shares = all(is_number(share, TINY, 1.0 - TINY) for share in (self.least, self.doubt))
+        if not (whole and shares and self.most >= 1 and self.folded >= 0):
+            raise CogmapError(
+                f"tracker: {self} cannot work; give whole numbers most >= 1 and folded >= 0, numbers 0 < least < 1 and "
+                "0 < doubt < 1, and a truth value calm"
+            )
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from .branches import Lead, leads
 from .evidence import label_probability, probability, way_odds
 from .hypothesis import Hypothesis
-from .rates import RATE_PRIORS
+from .rates import RATE_PRIORS, WAY_MISREAD
 
 
 class RateOf(NamedTuple):
@@ -48,6 +48,11 @@ def whereabouts(h: Hypothesis) -> dict[int, float]:
     if h.crowd is None:
         return {h.here: 1.0}
     return {number: exp(weight) for number, weight in h.crowd.items()}
+
+
+def ways_misread(h: Hypothesis) -> float:
+    """How many ways were misread so far, as a hypothesis expects."""
+    return max(h.counts.yes[WAY_MISREAD], 0.0)
 
 
 def rates_of(h: Hypothesis) -> list[RateOf]:
