@@ -39,6 +39,9 @@ HARDLY = 1.5
 DECIDED = 0.8
 """Probability from which on another hypothesis than the one that is followed changes the map."""
 
+RULED_OUT = 0.01
+"""Odds beside the most probable hypothesis down to which the one that is followed may be followed on."""
+
 
 class Recognition:
     """Weighs hypotheses about the map, and has the map say what the most probable one says.
@@ -86,10 +89,14 @@ class Recognition:
         """
         before, best = self.followed, self.tracker.best
         candidates = [h for h in self.tracker.hypotheses if self._goes_on(h, belief.place)]
-        agreed = bool(candidates) and (candidates[0] is best or exp(best.weight) < DECIDED)
+        agreed = bool(candidates) and self._may_go_on(candidates[0], best)
         self.followed = candidates[0] if agreed else best
         self.moved = self._moved(before)
         return agreed
+
+    def _may_go_on(self, h: Hypothesis, best: Hypothesis) -> bool:
+        """Whether a hypothesis is followed on: the best one is not decided, nor is this one as good as ruled out."""
+        return h is best or (exp(best.weight) < DECIDED and exp(h.weight - best.weight) > RULED_OUT)
 
     def _goes_on(self, h: Hypothesis, place: int) -> bool:
         if h.origin is not self.followed or self.mirror.missed:
