@@ -14,6 +14,7 @@ from cogmap.agent import Agent
 from cogmap.experiments import Truth
 from cogmap.model import FactorGraph, save_graph
 from cogmap.worlds import GRID, MazeEnv, labyrinth
+from shared import shared
 
 BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
 
@@ -24,6 +25,16 @@ def measured(name: str, tmp_path: Path, *arguments: str) -> tuple[str, dict[str,
     done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     return done.stdout, json.loads(file.read_text())
+
+
+def test_an_agent_led_along_a_recorded_animal_is_where_it_is_led(tmp_path: Path) -> None:
+    recordings = shared("worlds")
+    files = [str(recordings / "mice"), "--world", str(recordings / "mouse_labyrinth.json")]
+    printed, result = measured("recordings.py", tmp_path, *files, "--individuals", "B2", "--steps", "150")
+    row = result["rows"][0]
+    assert (row["steps"], row["astray"]) == (150, 0)
+    assert row["places"] == row["nodes"] > 20
+    assert "0 of 150 steps astray" in printed
 
 
 def test_detours_are_walked_around_shut_doors(tmp_path: Path) -> None:
