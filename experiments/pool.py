@@ -7,6 +7,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
@@ -169,13 +170,21 @@ def _processes(jobs: int) -> Generator[Executor]:
         yield pool
     except BaseException:
         pool.shutdown(wait=False, cancel_futures=True)
-        for process in context.started:
-            process.terminate()
-        for process in context.started:
-            process.join(PATIENCE)
+        _end(context.started)
         raise
     finally:
         pool.shutdown()
+
+
+def _end(processes: Sequence[SpawnProcess]) -> None:
+    """Terminate them and wait until each is known to have ended, at most `PATIENCE` seconds."""
+    for process in processes:
+        process.terminate()
+    deadline = time.monotonic() + PATIENCE
+    while any(process.exitcode is None for process in processes) and time.monotonic() < deadline:
+        time.sleep(0.01)  # a join is no help: the thread of a broken pool may take the exit status before it
+    for process in processes:
+        process.join(0)
 
 
 class _Spawning(SpawnContext):
