@@ -7,11 +7,11 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from ..model import GROWTHS, POSES, SENSORS, CogmapError, GenerativeModel, Growth, Pose, Sensor
-from ..planning import CHOICES, POLICIES, TERMS, Planner
+from ..planning import CHOICES, POLICIES, TERMS, Cost, Planner
 
 Kinds = Mapping[str, type[Any]]
 
-_TERMS: Kinds = {term.name: type(term) for term in TERMS}
+_TERMS: Kinds = {term.name: type(term) for term in (*TERMS, Cost())}
 
 
 class MissingPart(CogmapError):  # noqa: N818 - reads as what it says

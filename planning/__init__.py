@@ -21,6 +21,7 @@ from .rollout import evaluate
 from .terms import (
     TERMS,
     Collision,
+    Cost,
     Learned,
     PositionInformation,
     Rollout,
@@ -43,6 +44,7 @@ __all__ = [
     "Best",
     "Choice",
     "Collision",
+    "Cost",
     "Exhaustive",
     "ExpectedFreeEnergy",
     "LShaped",

@@ -80,6 +80,7 @@ class Planner:
         starts: int = 32,
         cache: LocalCache | None = None,
         structure: MapHypotheses | None = None,
+        costs: NDArray[np.float64] | None = None,
     ) -> Plan:
         """Cut the local model out of a map, make policies, evaluate them, choose one.
 
@@ -97,6 +98,7 @@ class Planner:
             starts: places to set out from, at most.
             cache: of the map, kept from plan to plan.
             structure: hypotheses about the map, which policies may tell apart.
+            costs: `[K]` what each action is expected to cost, for terms that ask.
 
         Raises:
             CogmapError: what `local_model`, the generator or `policy_posterior` raise.
@@ -114,6 +116,7 @@ class Planner:
             cache=cache,
             beyond=self.policies.beyond,
             structure=structure,
+            costs=costs,
         )
         return self._decide(model, precision, rng)
 
