@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model import CogmapError, Motions
-from .choices import Choice, Outward
+from .choices import Choice, Outward, Sampled
 from .local import LocalCache, LocalModel, MapHypotheses, MapView, Preferences, local_model
 from .plan import Plan, policy_posterior
-from .policies import MapGuided, PolicyGenerator
+from .policies import LShaped, MapGuided, PolicyGenerator
 from .rollout import evaluate
 from .terms import KINDS, TERMS, Term
 
@@ -60,6 +60,14 @@ class Planner:
                     f"use one of {', '.join(KINDS)}, and 1.0 or -1.0"
                 )
 
+    @classmethod
+    def paper(cls) -> Planner:
+        """That of the paper's own agent: L-shaped paths (of its three ways the one that reaches 13 steps), and a draw.
+
+        The draw is from P(policy) (eq. 6).
+        """
+        return cls(policies=LShaped(), choice=Sampled())
+
     def check(self, motions: Motions, look_ahead: int) -> None:
         """Refuse, before any work, what could not be planned: see `PolicyGenerator.check`."""
         self.policies.check(motions, look_ahead)
@@ -81,6 +89,7 @@ class Planner:
         cache: LocalCache | None = None,
         structure: MapHypotheses | None = None,
         costs: NDArray[np.float64] | None = None,
+        unseen: Sequence[bool] = (),
     ) -> Plan:
         """Cut the local model out of a map, make policies, evaluate them, choose one.
 
@@ -99,6 +108,7 @@ class Planner:
             cache: of the map, kept from plan to plan.
             structure: hypotheses about the map, which policies may tell apart.
             costs: `[K]` what each action is expected to cost, for terms that ask.
+            unseen: for each action, whether no sensor tells of its way, so that it is worth a try; none, unless told.
 
         Raises:
             CogmapError: what `local_model`, the generator or `policy_posterior` raise.
@@ -117,6 +127,7 @@ class Planner:
             beyond=self.policies.beyond,
             structure=structure,
             costs=costs,
+            unseen=unseen,
         )
         return self._decide(model, precision, rng)
 

@@ -37,9 +37,13 @@ def random_model(
     blocked = rng.random((places, kinds))
     blocked[:, motions.stay] = 0.0
     senses = tuple(rng.dirichlet(np.full(3, 0.5), places).T for _ in range(int(rng.integers(3))))
+    untried = rng.random((places, kinds)) * (rng.random((places, kinds)) < 0.4) if seed % 2 else None
+    if untried is not None:
+        untried[:, motions.stay] = 0.0
     return LocalModel(
         motions=motions,
         look_ahead=look_ahead,
+        untried=untried,
         places=np.arange(places) + 7,
         belief=belief,
         A=np.ascontiguousarray(A),

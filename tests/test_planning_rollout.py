@@ -211,7 +211,7 @@ def test_the_cost_of_moves_is_a_term_that_can_be_asked_for() -> None:
     for price in (-1.0, np.inf, np.nan):
         with pytest.raises(CogmapError, match="cost: price is .*; give a finite number"):
             Cost(price=price)
-    with pytest.raises(CogmapError, match="costs has a cost below 0"):
+    with pytest.raises(CogmapError, match=r"costs has a cost below 0"):
         replace(model, costs=np.array([-1.0, 0.0, 0.0])).check()
 
 

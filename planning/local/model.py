@@ -52,6 +52,8 @@ class LocalModel:
         senses: of each further sensor that sees labels, `[O', R]` as `A`.
         looks: whether the ways of a place are sensed in it, and places are few enough to compare the ways of all.
         costs: `[K]` what each action is expected to cost, in units of its own; None where that was never said.
+        untried: `[R, K]` nats that the first step along each way teaches, where no visit has told whether it is open;
+            None where that is nothing.
         kept: what was worked out of places, B, blocked, successor and entered alone, for models that share them.
     """
 
@@ -78,6 +80,7 @@ class LocalModel:
     looks: bool = False
     costs: Floats | None = None
     kept: Kept | None = field(default=None, repr=False, compare=False)
+    untried: Floats | None = None
 
     @property
     def utility(self) -> Floats:
@@ -96,6 +99,7 @@ class LocalModel:
         return replace(
             self,
             kept=None,
+            untried=None if self.untried is None else self.untried[places],
             A=self.A[:, places],
             senses=tuple(A[:, places] for A in self.senses),
             B=self.B.within(places),
@@ -156,6 +160,7 @@ class LocalModel:
             "position": (R, len(self.motions.displacements[0])),
             "blocked": (R, K),
             **dict.fromkeys(("places", "log_C_place", "entered"), (R,)),
+            **({} if self.untried is None else {"untried": (R, K)}),
         }
         tables: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in shapes}
         for name, table in self.information.items():
