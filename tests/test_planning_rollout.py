@@ -209,7 +209,7 @@ def test_the_cost_of_moves_is_a_term_that_can_be_asked_for() -> None:
     np.testing.assert_allclose(energy.G, energy["cost"])
     assert not evaluate(replace(model, costs=None), Policies(np.array([[0, 1]])), [Cost()])["cost"].any()
     for price in (-1.0, np.inf, np.nan):
-        with pytest.raises(CogmapError, match="cost: price is .*; give a finite number"):
+        with pytest.raises(CogmapError, match=r"cost: price is .*; give a finite number"):
             Cost(price=price)
     with pytest.raises(CogmapError, match=r"costs has a cost below 0"):
         replace(model, costs=np.array([-1.0, 0.0, 0.0])).check()
