@@ -32,7 +32,7 @@ CHECKS: dict[str, Sequence[str]] = {
     "lint": ("-m", "ruff", "check", "."),
     "types": ("-m", "pyright", "--pythonpath", sys.executable),
     "import rules": ("-c", _LINT_IMPORTS),
-    "tests": ("-m", "pytest", "-n", str(JOBS), *_COVERAGE),
+    "tests": ("-m", "pytest", "-n", str(JOBS), "--dist", "loadgroup", *_COVERAGE),
 }
 
 

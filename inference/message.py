@@ -126,6 +126,12 @@ class Belief:
     pruned: tuple[Ints, Floats] = field(default_factory=_nothing)
     ahead: Successors | None = None
 
+    def __repr__(self) -> str:
+        ranked, shown = self.places, 5
+        places = ", ".join(f"{place}: {q:.3g}" for place, q in list(ranked.items())[:shown])
+        more = f", … {len(ranked) - shown} more" if len(ranked) > shown else ""
+        return f"Belief({{{places}{more}}}, certainty {self.certainty:.3g}, free energy {self.free_energy:.3g} nats)"
+
     @property
     def accuracy(self) -> float:
         """E_Q[log P(o_t | s_t)], in nats."""

@@ -16,6 +16,9 @@ from .policies import PolicyGenerator
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+SHOWN = 12
+"""Actions of a plan that its text has."""
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -42,6 +45,13 @@ class Plan:
     cut: int
     generator: PolicyGenerator
     choice: Choice
+
+    def __repr__(self) -> str:
+        G = float(self.expected_free_energy.G[self.chosen])
+        names, more = self.names[:SHOWN], len(self.policy) - SHOWN
+        steps = ", ".join(names) + (f", … {more} more" if more > 0 else "")
+        odds = f"P {float(self.probability[self.chosen]):.3g} of {len(self.policies)} policies"
+        return f"Plan({steps}; G {G:.3f} nats, {odds}, over {len(self.places)} places)"
 
     @property
     def policy(self) -> Ints:

@@ -64,8 +64,9 @@ def _bump(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
     way, chances, place = sensed.action, h.chances, h.places[h.here]
     if way is None:
         return
-    given, lost = 1.0 - chances.astray, chances.astray * 0.5
-    worth = log((given * chances.fails + lost) / (given + lost)) / chances.unit
+    astray = 0.0 if sensed.certain else chances.astray
+    given, lost = 1.0 - astray, astray * 0.5
+    worth = log((given * max(chances.fails, sensed.fails) + lost) / (given + lost)) / chances.unit
     known = place.ways[way]
     net = max(known.net + worth, -chances.most)
     h.put(h.here, with_way(place, way, Way(net, known.open, known.blocked, known.walks, known.to)))

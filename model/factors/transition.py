@@ -174,7 +174,7 @@ class Transition(ModelFactor):
         if action == self.motions.stay:
             return
         if previous == next_:
-            self.shut(previous, action, weight, changed=True)
+            self.shut(previous, action, weight, changed=True, seen=weight > 0.5)
             return
         forward, reverse = self.rates.possible
         self.add(next_, previous, action, weight * forward)
@@ -183,11 +183,12 @@ class Transition(ModelFactor):
         if weight > 0.5:
             self.walked.set((previous, action), True)
 
-    def shut(self, place: int, action: int, weight: float, *, changed: bool) -> None:
-        """The way was found blocked; if that is news, so is its other side."""
+    def shut(self, place: int, action: int, weight: float, *, changed: bool, seen: bool = True) -> None:
+        """The way was found blocked; if that is news, so is its other side, and if it was seen, that is noted."""
         forward, reverse = self.rates.impossible
         self.raise_to(place, place, action, -weight * forward)
-        self.sensed.set((place, action), BLOCKED)
+        if seen:
+            self.sensed.set((place, action), BLOCKED)
         beyond = self.beyond(place, action)
         if beyond is None:
             return

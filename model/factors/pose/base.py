@@ -7,11 +7,13 @@ from collections.abc import Hashable, Sequence
 from ...dirichlet import SparseDirichlet
 from ...domain import Domain
 from ...motions import Position
+from ...percept import Percept
 from ...periods import Periods
 from ..base import Floats, Ints, ModelFactor
 
-Ahead = Sequence[tuple[Ints, float]]
-"""Poses `[n]` that an action may lead to from `n` poses, -1 where there is none, and with which probability."""
+Ahead = Sequence[tuple[Ints, float, float]]
+"""Poses `[n]` that an action may lead to from `n` poses, -1 where there is none; their probability; and the likelihood
+of what was measured of the move, up to a factor that is the same for all."""
 
 
 class Pose(ModelFactor):
@@ -55,9 +57,16 @@ class Pose(ModelFactor):
         """`[n]` P(p | s)."""
         raise NotImplementedError
 
-    def predict(self, poses: Ints, action: int, *, opened: bool) -> Ahead:
-        """Where an action leads from poses, whether its way was sensed open before or not."""
+    def predict(self, poses: Ints, action: int, percept: Percept) -> Ahead:
+        """Where an action leads from poses, whether its way was sensed open before or not, and as it was measured."""
         raise NotImplementedError
+
+    def measured(self, percept: Percept) -> Floats | None:
+        """`[K]` log P(measured displacement | the move of each action), the largest 0; None where nothing was measured.
+
+        None too where places have no positions: nobody knows then what to measure.
+        """
+        return None
 
     def stays(self, action: int, *, opened: bool) -> float:
         """Probability that an action leaves the pose as it is, by a slip or since the way was shut."""
