@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .loading import BODILY, load_embodied
 from .protocol import OUTCOMES, Body, Percept
 
 if TYPE_CHECKING:
@@ -12,7 +13,19 @@ if TYPE_CHECKING:
     from .minigrid import MiniGridBody
     from .world import GOAL, EmbodiedWorld, embodied
 
-__all__ = ["GOAL", "OUTCOMES", "Body", "EmbodiedWorld", "Eyes", "MiniGridBody", "Percept", "View", "embodied"]
+__all__ = [
+    "BODILY",
+    "GOAL",
+    "OUTCOMES",
+    "Body",
+    "EmbodiedWorld",
+    "Eyes",
+    "MiniGridBody",
+    "Percept",
+    "View",
+    "embodied",
+    "load_embodied",
+]
 
 _HEAVY = ("eyes", "minigrid", "world")
 

@@ -13,7 +13,7 @@ from .vocabulary import vocabulary
 
 DOUBT = 7.0
 """Nats by which the least likely tile is less likely than the most likely one: no look is surer than that."""
-_QUIET = 6.0  # of 255: no camera is taken to be better
+_QUIET = 3.0  # of 255: no camera is taken to be better
 _SPREAD = 0.75  # quantile of the tiles whose misfit tells the noise: some may be none that is known
 
 
@@ -53,12 +53,16 @@ class Eyes:
         """
         image = np.asarray(image)
         if image.ndim != 3 or image.shape[0] != image.shape[1] or image.shape[2] != 3 or len(image) < 3:
-            raise CogmapError(f"body: an image of shape {image.shape} is no view; give (7, 7, 3), or (56, 56, 3) in RGB")
+            raise CogmapError(
+                f"body: an image of shape {image.shape} is no view; give (7, 7, 3), or (56, 56, 3) in RGB"
+            )
         if len(image) % 2 and len(image) < 21:
             return self._view(self._symbols(image), len(image))
         size = 7
         if len(image) % size:
-            raise CogmapError(f"body: an image of {len(image)} pixels a side has not {size} tiles a side; use that view")
+            raise CogmapError(
+                f"body: an image of {len(image)} pixels a side has not {size} tiles a side; use that view"
+            )
         return self._view(self._pixels(image, size), size)
 
     def _view(self, log_likelihood: NDArray[np.float64], size: int) -> View:
@@ -82,12 +86,13 @@ class Eyes:
         squared, energy, likeness = (seen**2).sum(axis=1), (looks**2).sum(axis=1), seen @ looks.T
         misfit = squared[:, None] - 2.0 * likeness + energy
         best = misfit.argmin(axis=1)
-        lit = energy[best].sum()
-        self.gain = float(likeness[np.arange(len(best)), best].sum() / lit) if lit else 1.0
+        here = size // 2 * size + size - 1  # the agent is drawn on its own tile
+        rows = np.delete(np.arange(len(best)), here)
+        lit = energy[best[rows]].sum()
+        self.gain = float(likeness[rows, best[rows]].sum() / lit) if lit else 1.0
         if abs(self.gain - 1.0) > 0.005:
             misfit = squared[:, None] - 2.0 * self.gain * likeness + self.gain**2 * energy
         least = misfit.min(axis=1)
-        others = np.delete(least, size // 2 * size + size - 1)  # the agent is drawn on its own
-        self.noise = float(np.sqrt(np.quantile(others, _SPREAD) / looks.shape[1]))
+        self.noise = float(np.sqrt(np.quantile(least[rows], _SPREAD) / looks.shape[1]))
         variance = max(self.noise, _QUIET) ** 2
         return np.maximum((least[:, None] - misfit) / (2.0 * variance), -DOUBT)

@@ -14,7 +14,7 @@ from .protocol import Percept
 from .room_map import CENTRE, Pose, RoomMap, around
 from .routes import distances, route
 from .vocabulary import vocabulary
-from .whereabouts import FORWARD, NOTHING, SURE, TOGGLE, Whereabouts, moved
+from .whereabouts import NOTHING, SURE, TOGGLE, Whereabouts, moved
 
 UP = 3
 """The way a body faces where it wakes up, whatever that is in the world."""
@@ -62,6 +62,11 @@ class MiniGridBody:
         return self._where.pose
 
     @property
+    def slip(self) -> float:
+        """How often its actions go astray, as it has learned."""
+        return self._where.slip
+
+    @property
     def lost(self) -> bool:
         """Whether what it saw last fits nothing that it expected."""
         return self._confused
@@ -104,7 +109,7 @@ class MiniGridBody:
         begin = self.steps
         aims = {tile for tile in self._outlook().room if self._known.floor(tile) == floor}
         while aims and self.pose[:2] not in aims and not (self.ended or self._confused) and self.steps < begin + _TRIES:
-            plan = route(self.pose, self._known, lambda pose: pose[:2] in aims, within=self._outlook().room.__contains__)
+            plan = route(self.pose, self._known, aims, within=self._outlook().room)
             if not plan:
                 break
             self._act(plan[0])
@@ -166,7 +171,7 @@ class MiniGridBody:
             if spot is None or spot[1] == 0:  # they are in view, and yet not seen
                 self._given_up |= targets if spot is None else self._in_view(targets)
                 continue
-            plan = route(self.pose, self._known, lambda pose: pose == spot[0], within=now.room.__contains__)
+            plan = route(self.pose, self._known, [spot[0]], within=now.room)
             self._act(plan[0] if plan else NOTHING)
 
     def _in_view(self, targets: Iterable[Tile]) -> set[Tile]:
@@ -219,9 +224,7 @@ class MiniGridBody:
             goal = self._next(beyond, room)
             if goal is None:
                 return "blocked"
-            plan = route(
-                self.pose, self._known, lambda pose: pose[:2] == goal, within=lambda tile: tile in room or tile in beyond
-            )
+            plan = route(self.pose, self._known, [goal], within=room | beyond)
             if plan is None:
                 return "blocked"
             if not plan:

@@ -21,7 +21,7 @@ class Percept:
         displacement, turn: as measured; None where that cannot be told.
     """
 
-    sight: Hashable | Mapping[Hashable, float] | None
+    sight: Hashable | Mapping[Any, float] | None
     ways: Mapping[Any, bool | float | None] = field(default_factory=dict[Any, bool | float | None])
     outcome: str | None = None
     steps: int = 0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from itertools import count
 
 from ..worlds.minigrid import AHEAD, Tile
@@ -11,15 +11,13 @@ from .room_map import Pose, RoomMap
 from .whereabouts import FORWARD, LEFT, RIGHT, TOGGLE
 
 
-def route(
-    start: Pose, known: RoomMap, arrived: Callable[[Pose], bool], *, within: Callable[[Tile], bool]
-) -> list[int] | None:
-    """The actions of a shortest way to a pose for which `arrived` holds; None where there is none.
+def route(start: Pose, known: RoomMap, goals: Collection[Tile | Pose], *, within: Collection[Tile]) -> list[int] | None:
+    """The actions of a shortest way to one of some tiles or poses; None where there is none.
 
     Args:
         start: where it begins.
         known: the tiles.
-        arrived: the goal.
+        goals: where to be.
         within: the tiles that may be stepped on; closed doors are opened.
     """
     order, best = count(), {start: 0}
@@ -27,7 +25,7 @@ def route(
     queue = [(0, next(order), start)]
     while queue:
         steps, _, pose = heapq.heappop(queue)
-        if arrived(pose):
+        if pose in goals or pose[:2] in goals:
             return _actions(before, pose)
         if best[pose] < steps:
             continue
@@ -37,7 +35,7 @@ def route(
             ((x, y, (heading - 1) % 4), (LEFT,)),
             ((x, y, (heading + 1) % 4), (RIGHT,)),
         ]
-        if within(ahead):
+        if ahead in within:
             if known.free(ahead):
                 moves.insert(0, ((*ahead, heading), (FORWARD,)))
             elif known.shut(ahead):

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import gymnasium as gym
-
 from gymnasium import spaces
 
 from ..model import UNSEEN
@@ -23,7 +22,7 @@ _NAMES = ("right", "down", "left", "up")
 
 
 class EmbodiedWorld(gym.Env[Observation, Any]):
-    """A room maze of MiniGrid as the agent of the upper level lives in it: an action is a way, an observation a percept.
+    """A room maze of MiniGrid as the agent above lives in it: an action is a way, an observation a percept.
 
     The body sees the view alone. The frame in which it woke up is called as the map is drawn, which changes names and
     nothing else. The truth is in `info`: `position`, `low_level_steps`, `tiles_seen`.
@@ -101,7 +100,7 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
         return self.observe()
 
     def least_to_cover(self) -> int | None:
-        """The fewest low-level steps in which every room can be entered from the start; None where that is out of reach."""
+        """The fewest low-level steps in which every room can be entered; None where that is out of reach."""
         return covering_low_steps(self.rooms.plan, self.rooms.tally.path[0])
 
     def least_to(self, goal: Any) -> int | None:
@@ -190,6 +189,3 @@ class _Labels(spaces.Space[Any]):
 
     def contains(self, x: Any) -> bool:
         return x is UNSEEN or set(x if isinstance(x, Mapping) else [x]) <= set(self.labels)
-
-
-

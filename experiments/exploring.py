@@ -106,7 +106,9 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
     left_out = f"oracle_steps, frontier_steps: more than {MOST_WALKED} places" if oracle is instead is None else None
     figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
     return Walk(
-        ExploreRun(seed, session.start, *figures, left_out, *_worth(session, known.trail), *Meter.of(session.world).explored()),
+        ExploreRun(
+            seed, session.start, *figures, left_out, *_worth(session, known.trail), *Meter.of(session.world).explored()
+        ),
         done.truth,
         session.agent,
         session.truth,

@@ -25,7 +25,7 @@ class Meter:
     @classmethod
     def of(cls, world: gym.Env[Any, Any], goal: Any = None) -> Meter:
         """From now on; towards `goal`, if there is one."""
-        inner = world.unwrapped
+        inner: Any = world.unwrapped
         if not hasattr(inner, "low_level_steps"):
             return cls(None)
         return cls(inner, inner.low_level_steps, inner.least_to(goal))
@@ -36,8 +36,8 @@ class Meter:
             return None, None
         return self.world.low_level_steps_to_goal(self.begin), self.least
 
-    def explored(self) -> tuple[int | None, int | None, int | None, float | None]:
-        """Steps until every room was entered, the fewest possible, those until nine tenths were seen, the share seen."""
+    def explored(self) -> tuple[Any, ...]:
+        """Steps until every room was entered, the fewest possible, steps to see nine tenths, the share seen."""
         if self.world is None:
             return None, None, None, None
         tally = self.world.rooms.tally

@@ -35,8 +35,8 @@ class RoomsEnv(MiniGridEnv):
 
     Observations are MiniGrid's: `image`, `direction`, `mission`; the `direction` is a compass, and nothing of this
     library reads it. `info` has the truth: `position`, the room (that of the last floor, while in a passage); `tile`
-    and `heading`; `tiles_seen`, a share; `white`, whether the agent stands on the white tile. Reward is 1.0 where it steps
-    on that; an episode ends at the limit of steps alone.
+    and `heading`; `tiles_seen`, a share; `white`, whether the agent stands on the white tile. Reward is 1.0 where it
+    does; an episode ends at the limit of steps alone.
 
     Args:
         maze: the rooms; each sight is a colour of the floor.

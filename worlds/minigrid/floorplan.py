@@ -85,7 +85,7 @@ def size_of(maze: Maze, geometry: Geometry) -> tuple[int, int]:
 def draw_floorplan(maze: Maze, geometry: Geometry, rng: np.random.Generator) -> Floorplan:
     """Lay a maze out: sizes and places of rooms, where passages leave, and which doors are locked are drawn.
 
-    A room lies in its cell so that it holds the middle of it: what two neighbours have in common is where a passage can be.
+    A room holds the middle of its cell, so two neighbours have some floor in common: a passage is where they do.
 
     Raises:
         WorldError: so many doors cannot be locked with every room reachable.

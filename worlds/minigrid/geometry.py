@@ -39,6 +39,6 @@ class Geometry:
                 small = "; smaller rooms have no wall for a door" if name != "locked" and value in range(low) else ""
                 raise WorldError(f"geometry: {name} is {value!r}; use {low} to {high}{small}")
         if self.least > self.most:
-            raise WorldError(f"geometry: rooms have {self.least} tiles at least and {self.most} at most; turn them round")
+            raise WorldError(f"geometry: rooms have {self.least} tiles at least, {self.most} at most; turn them round")
         if self.door not in DOORS:
             raise WorldError(f"geometry: door is {self.door!r}; use {' or '.join(DOORS)}")

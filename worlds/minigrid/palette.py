@@ -8,8 +8,8 @@ from ..errors import WorldError
 
 Colour = tuple[int, int, int]
 
-# Chosen greedily: as shown in a lit tile each is at least 48 of 255 from every other, from walls, goals, lava and the bare
-# floor, whatever the light (a gain of 0.82 to 1.2)
+# Chosen greedily: as shown in a lit tile each is at least 48 of 255 from every other, from walls, goals, lava and the
+# bare floor, whatever the light (a gain of 0.82 to 1.2)
 COLOURS: tuple[Colour, ...] = (
     (0, 0, 255),
     (0, 255, 255),

@@ -71,8 +71,14 @@ def paint(image: NDArray[Any], *, pixels: int = TILE) -> Pixels:
 @lru_cache(maxsize=1)
 def codes() -> tuple[Code, ...]:
     """Every tile that a view may show, of MiniGrid's and of ours, the unseen one first."""
-    plain = [UNSEEN, (1, 0, 0), (8, 1, 0), (9, 0, 0)]
-    of_six = [(kind, colour, 0) for kind in (2, 3, 5, 6, 7) for colour in range(6)]
+    plain = [
+        UNSEEN,
+        (1, 0, 0),
+        (2, 5, 0),
+        (8, 1, 0),
+        (9, 0, 0),
+    ]  # all walls are grey: a green one would be a goal
+    of_six = [(kind, colour, 0) for kind in (3, 5, 6, 7) for colour in range(6)]
     doors = [(4, colour, state) for colour in range(6) for state in range(3)]
     return (*plain, *of_six, *doors, *map(encode_floor, range(len(COLOURS))))
 
