@@ -32,9 +32,9 @@ _HEAVY = ("eyes", "minigrid", "world")
 
 def __getattr__(name: str) -> Any:
     if name in __all__:
-        from ..worlds.minigrid import need_minigrid
+        from ..worlds import minigrid as mg
 
-        need_minigrid()
+        mg.need_minigrid()
         for module in _HEAVY:
             found = vars(import_module(f".{module}", __name__))
             if name in found:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..worlds import MAZES, Maze, WorldError, hall, load_world
-from ..worlds.minigrid import need_minigrid
+from ..worlds import minigrid as mg
 
 if TYPE_CHECKING:
     from .world import EmbodiedWorld
@@ -49,7 +49,7 @@ def load_embodied(
     Raises:
         WorldError: MiniGrid is missing, there is no such maze, or an option makes no sense.
     """
-    need_minigrid()
+    mg.need_minigrid()
     from .world import embodied
 
     maze = _maze(name, format, sights, seed)

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..worlds.minigrid import AHEAD, WHITE, Tile
+from ..worlds import minigrid as mg
 from .eyes import DOUBT, Eyes
 from .outlook import Outlook, Sizes, outlook, viewpoint
 from .protocol import Percept
@@ -50,8 +50,8 @@ class MiniGridBody:
         self._limbs, self._glance = limbs, glance
         self._eyes, self._known, self._sizes = Eyes(), RoomMap(), Sizes()
         self._where = Whereabouts((CENTRE, CENTRE, UP))
-        self._seed: Tile = (CENTRE, CENTRE)
-        self._given_up: set[Tile] = set()
+        self._seed: mg.Tile = (CENTRE, CENTRE)
+        self._given_up: set[mg.Tile] = set()
         self._far, self._walked = _PASSAGE, 1
         self.steps, self.ended, self.reward = 0, False, 0.0
         self._confused = False
@@ -120,7 +120,7 @@ class MiniGridBody:
         now = self._outlook()
         exits = set(now.exits[way])
         steps = distances(self.pose, self._known, now.room)
-        near = [n for (x, y, h), n in steps.items() if h == way and (x + AHEAD[h][0], y + AHEAD[h][1]) in exits]
+        near = [n for (x, y, h), n in steps.items() if h == way and (x + mg.AHEAD[h][0], y + mg.AHEAD[h][1]) in exits]
         turns = min((way - self.pose[2]) % 4, (self.pose[2] - way) % 4)
         return (min(near) if near else turns) + self._far
 
@@ -147,8 +147,8 @@ class MiniGridBody:
         A white tile is what a room is known by.
         """
         words = vocabulary()
-        if any(self._known.floor(tile) == WHITE for tile in now.room):
-            return WHITE
+        if any(self._known.floor(tile) == mg.WHITE for tile in now.room):
+            return mg.WHITE
         evidence = self._known.evidence(now.room)
         floors = np.flatnonzero(words.floor[:-1] >= 0)
         worth = evidence[floors] - evidence[floors].max()
@@ -163,7 +163,7 @@ class MiniGridBody:
         ways = list(ways)
         for _ in range(_LOOKS):
             now = self._outlook()
-            targets = frozenset[Tile]().union(*(now.needed[way] for way in ways))
+            targets = frozenset[mg.Tile]().union(*(now.needed[way] for way in ways))
             if not targets or self.ended or self._confused:
                 return
             steps = distances(self.pose, self._known, now.room)
@@ -174,7 +174,7 @@ class MiniGridBody:
             plan = route(self.pose, self._known, [spot[0]], within=now.room)
             self._act(plan[0] if plan else NOTHING)
 
-    def _in_view(self, targets: Iterable[Tile]) -> set[Tile]:
+    def _in_view(self, targets: Iterable[mg.Tile]) -> set[mg.Tile]:
         return {tile for tile in targets if viewpoint({self.pose: 0}, [tile]) is not None}
 
     # -- what is done --------------------------------------------------------------------------------------
@@ -186,7 +186,7 @@ class MiniGridBody:
         self.ended = self.ended or terminated or truncated
         if action == TOGGLE:
             x, y, heading = self.pose
-            self._known.unlearn((x + AHEAD[heading][0], y + AHEAD[heading][1]))
+            self._known.unlearn((x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]))
         self._sense(action, observation)
 
     def _sense(self, action: int, observation: Any) -> None:
@@ -212,7 +212,7 @@ class MiniGridBody:
     def _through(self, way: int, limit: int) -> str:
         """Follow the passage of a way to the floor beyond."""
         room = self._outlook().room
-        left: set[Tile] = set()  # what was tried in vain
+        left: set[mg.Tile] = set()  # what was tried in vain
         while self.steps < limit and not self.ended:
             if self._confused:
                 return "unsure"
@@ -233,7 +233,7 @@ class MiniGridBody:
             self._act(plan[0])
         return "unsure"
 
-    def _beyond(self, exits: set[Tile], room: frozenset[Tile]) -> set[Tile]:
+    def _beyond(self, exits: set[mg.Tile], room: frozenset[mg.Tile]) -> set[mg.Tile]:
         """Tiles that can be reached through the exits, as far as the next floor."""
         found, queue = set(exits), list(exits)
         while queue:
@@ -246,7 +246,7 @@ class MiniGridBody:
                     queue.append(other)
         return found
 
-    def _next(self, beyond: set[Tile], room: frozenset[Tile]) -> Tile | None:
+    def _next(self, beyond: set[mg.Tile], room: frozenset[mg.Tile]) -> mg.Tile | None:
         """Where to go: the floor beyond, else where the passage was not seen yet; None where it ends."""
         floors = [tile for tile in beyond if not self._known.narrow(tile)]
         edges = [tile for tile in beyond if self._known.shut(tile) or self._open_ended(tile)]
@@ -256,7 +256,7 @@ class MiniGridBody:
                 return min(tiles, key=lambda tile: (abs(tile[0] - x) + abs(tile[1] - y), tile))
         return None
 
-    def _open_ended(self, tile: Tile) -> bool:
+    def _open_ended(self, tile: mg.Tile) -> bool:
         return any(not self._known.known(other) for _, other in around(tile))
 
     def _arrive(self, steps: int) -> None:

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..worlds.minigrid import Tile, view_offsets
+from ..worlds import minigrid as mg
 from .room_map import Pose, RoomMap, around
 
 MAYBE = 0.25
 """Probability that a room goes on beyond what was seen from which on that has to be looked at."""
 
-_CONES = [{tuple(tile) for tile in view_offsets(h).reshape(-1, 2).tolist()} for h in range(4)]
+_CONES = [{tuple(tile) for tile in mg.view_offsets(h).reshape(-1, 2).tolist()} for h in range(4)]
 
 
 class Sizes:
@@ -22,7 +22,7 @@ class Sizes:
     def __init__(self) -> None:
         self._seen: list[int] = []
 
-    def learn(self, room: Collection[Tile]) -> None:
+    def learn(self, room: Collection[mg.Tile]) -> None:
         """A room was seen whole."""
         self._seen.extend(_extent(room))
 
@@ -44,10 +44,10 @@ class Outlook:
             surely none.
     """
 
-    room: frozenset[Tile]
-    exits: tuple[tuple[Tile, ...], ...]
-    unknown: tuple[frozenset[Tile], ...]
-    needed: tuple[frozenset[Tile], ...]
+    room: frozenset[mg.Tile]
+    exits: tuple[tuple[mg.Tile, ...], ...]
+    unknown: tuple[frozenset[mg.Tile], ...]
+    needed: tuple[frozenset[mg.Tile], ...]
 
     @property
     def whole(self) -> bool:
@@ -55,11 +55,11 @@ class Outlook:
         return not any(self.unknown)
 
 
-def outlook(known: RoomMap, seed: Tile, sizes: Sizes, given_up: Collection[Tile]) -> Outlook:
+def outlook(known: RoomMap, seed: mg.Tile, sizes: Sizes, given_up: Collection[mg.Tile]) -> Outlook:
     """What can be told of the room that holds the tile `seed`; tiles that were given up count as walls."""
     room = known.room(seed)
-    exits: list[set[Tile]] = [set() for _ in range(4)]
-    unknown: list[set[Tile]] = [set() for _ in range(4)]
+    exits: list[set[mg.Tile]] = [set() for _ in range(4)]
+    unknown: list[set[mg.Tile]] = [set() for _ in range(4)]
     for tile in room:
         for heading, other in around(tile):
             if other in room:
@@ -70,7 +70,7 @@ def outlook(known: RoomMap, seed: Tile, sizes: Sizes, given_up: Collection[Tile]
             elif known.narrow(other) and (known.free(other) or known.door(other)):
                 exits[heading].add(other)
     wide, high = _extent(room)
-    needed: list[frozenset[Tile]] = []
+    needed: list[frozenset[mg.Tile]] = []
     for heading in range(4):
         tiles = set(unknown[heading])
         across = wide if heading % 2 else high
@@ -81,7 +81,7 @@ def outlook(known: RoomMap, seed: Tile, sizes: Sizes, given_up: Collection[Tile]
     return Outlook(frozenset(room), listed, tuple(map(frozenset, unknown)), tuple(needed))
 
 
-def viewpoint(steps: dict[Pose, int], targets: Collection[Tile]) -> tuple[Pose, int, int] | None:
+def viewpoint(steps: dict[Pose, int], targets: Collection[mg.Tile]) -> tuple[Pose, int, int] | None:
     """From where to look at tiles: the pose, its distance, and how many of them lie in view there; None of nowhere.
 
     The nearest from which all are in view, else the one with the most for its distance.
@@ -100,6 +100,6 @@ def viewpoint(steps: dict[Pose, int], targets: Collection[Tile]) -> tuple[Pose, 
     return None if best is None else best[1:]
 
 
-def _extent(room: Collection[Tile]) -> tuple[int, int]:
+def _extent(room: Collection[mg.Tile]) -> tuple[int, int]:
     xs, ys = [x for x, _ in room], [y for _, y in room]
     return max(xs) - min(xs) + 1, max(ys) - min(ys) + 1

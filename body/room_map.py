@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..worlds.minigrid import AHEAD, Tile, view_offsets
+from ..worlds import minigrid as mg
 from .eyes import View
 from .vocabulary import vocabulary
 
@@ -20,7 +20,7 @@ UNKNOWN = -1
 _SURE = 14.0  # nats: two looks that agree; what has changed is believed after as many
 _NOVEL = 0.1  # nats: how surprising a tile is of which nothing is known; what lies beside what is known mostly goes on
 
-_OFFSETS = np.array([view_offsets(heading).reshape(-1, 2) for heading in range(4)])
+_OFFSETS = np.array([mg.view_offsets(heading).reshape(-1, 2) for heading in range(4)])
 
 
 class RoomMap:
@@ -34,7 +34,7 @@ class RoomMap:
         self._words = vocabulary()
         self._evidence = np.zeros((SIDE, SIDE, len(self._words.codes)))
         self.tile: NDArray[np.int64] = np.full((SIDE, SIDE), UNKNOWN, dtype=np.int64)
-        self._stood: set[Tile] = set()
+        self._stood: set[mg.Tile] = set()
 
     def clear(self) -> None:
         """Forget everything."""
@@ -42,7 +42,7 @@ class RoomMap:
         self.tile[:] = UNKNOWN
         self._stood.clear()
 
-    def recentre(self, tile: Tile, keep: Iterable[Tile]) -> Tile:
+    def recentre(self, tile: mg.Tile, keep: Iterable[mg.Tile]) -> mg.Tile:
         """Forget all but `keep`, and move the map so that `tile` is in its middle; answers with where that is."""
         dx, dy = CENTRE - tile[0], CENTRE - tile[1]
         kept = [(x, y, self._evidence[y, x].copy(), int(self.tile[y, x])) for x, y in keep]
@@ -77,41 +77,41 @@ class RoomMap:
         self.tile[y, x] = evidence.argmax(axis=1)
         self._stood.add(pose[:2])
 
-    def unlearn(self, tile: Tile) -> None:
+    def unlearn(self, tile: mg.Tile) -> None:
         """Forget a tile that has been changed."""
         self._evidence[tile[1], tile[0]] = 0.0
         self.tile[tile[1], tile[0]] = UNKNOWN
 
-    def evidence(self, tiles: Iterable[Tile]) -> NDArray[np.float64]:
+    def evidence(self, tiles: Iterable[mg.Tile]) -> NDArray[np.float64]:
         """`[K]` evidence for each kind of tile, summed over tiles of which something is known."""
         known = [(x, y) for x, y in tiles if self.tile[y, x] != UNKNOWN]
         return sum((self._evidence[y, x] for x, y in known), np.zeros(len(self._words.codes)))
 
-    def known(self, tile: Tile) -> bool:
+    def known(self, tile: mg.Tile) -> bool:
         """Whether anything is known of a tile."""
         return self.tile[tile[1], tile[0]] != UNKNOWN or tile in self._stood
 
-    def free(self, tile: Tile) -> bool:
+    def free(self, tile: mg.Tile) -> bool:
         """Whether one can stand there."""
         return bool(self._words.free[self.tile[tile[1], tile[0]]]) or tile in self._stood
 
-    def wall(self, tile: Tile) -> bool:
+    def wall(self, tile: mg.Tile) -> bool:
         """Whether a wall is there."""
         return bool(self._words.wall[self.tile[tile[1], tile[0]]])
 
-    def door(self, tile: Tile) -> bool:
+    def door(self, tile: mg.Tile) -> bool:
         """Whether a door is there, open or not."""
         return bool(self._words.door[self.tile[tile[1], tile[0]]])
 
-    def shut(self, tile: Tile) -> bool:
+    def shut(self, tile: mg.Tile) -> bool:
         """Whether a door is there that can be opened."""
         return bool(self._words.shut[self.tile[tile[1], tile[0]]])
 
-    def floor(self, tile: Tile) -> int:
+    def floor(self, tile: mg.Tile) -> int:
         """The number of the coloured floor there; -1 of anything else."""
         return int(self._words.floor[self.tile[tile[1], tile[0]]])
 
-    def narrow(self, tile: Tile) -> bool:
+    def narrow(self, tile: mg.Tile) -> bool:
         """Whether a tile joins rooms: a door, or a gap between walls on opposite sides.
 
         A gap of which one side was not seen counts where the wall on the other side ends beside it.
@@ -128,7 +128,7 @@ class RoomMap:
                 return True
         return False
 
-    def room(self, tile: Tile) -> set[Tile]:
+    def room(self, tile: mg.Tile) -> set[mg.Tile]:
         """The tiles of floor that hang together with this one, doors and gaps left out."""
         found, queue = {tile}, [tile]
         while queue:
@@ -138,7 +138,7 @@ class RoomMap:
                     queue.append(other)
         return found
 
-    def _ends(self, tile: Tile, wall: Tile, along: tuple[int, int]) -> bool:
+    def _ends(self, tile: mg.Tile, wall: mg.Tile, along: tuple[int, int]) -> bool:
         return any(
             self.free((tile[0] + s * along[0], tile[1] + s * along[1]))
             and self.free((wall[0] + s * along[0], wall[1] + s * along[1]))
@@ -151,7 +151,7 @@ class RoomMap:
         return where[..., 0], where[..., 1]
 
 
-def around(tile: Tile) -> Iterator[tuple[int, Tile]]:
+def around(tile: mg.Tile) -> Iterator[tuple[int, mg.Tile]]:
     """The four tiles beside one, each with its direction."""
-    for heading, (dx, dy) in enumerate(AHEAD):
+    for heading, (dx, dy) in enumerate(mg.AHEAD):
         yield heading, (tile[0] + dx, tile[1] + dy)

@@ -6,12 +6,14 @@ import heapq
 from collections.abc import Collection
 from itertools import count
 
-from ..worlds.minigrid import AHEAD, Tile
+from ..worlds import minigrid as mg
 from .room_map import Pose, RoomMap
 from .whereabouts import FORWARD, LEFT, RIGHT, TOGGLE
 
 
-def route(start: Pose, known: RoomMap, goals: Collection[Tile | Pose], *, within: Collection[Tile]) -> list[int] | None:
+def route(
+    start: Pose, known: RoomMap, goals: Collection[mg.Tile | Pose], *, within: Collection[mg.Tile]
+) -> list[int] | None:
     """The actions of a shortest way to one of some tiles or poses; None where there is none.
 
     Args:
@@ -30,7 +32,7 @@ def route(start: Pose, known: RoomMap, goals: Collection[Tile | Pose], *, within
         if best[pose] < steps:
             continue
         x, y, heading = pose
-        ahead = (x + AHEAD[heading][0], y + AHEAD[heading][1])
+        ahead = (x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1])
         moves: list[tuple[Pose, tuple[int, ...]]] = [
             ((x, y, (heading - 1) % 4), (LEFT,)),
             ((x, y, (heading + 1) % 4), (RIGHT,)),
@@ -47,12 +49,12 @@ def route(start: Pose, known: RoomMap, goals: Collection[Tile | Pose], *, within
     return None
 
 
-def distances(start: Pose, known: RoomMap, room: Collection[Tile]) -> dict[Pose, int]:
+def distances(start: Pose, known: RoomMap, room: Collection[mg.Tile]) -> dict[Pose, int]:
     """Steps to every pose in a room."""
     steps, queue = {start: 0}, [start]
     for pose in queue:  # grows while it is read: breadth first
         x, y, heading = pose
-        ahead = (x + AHEAD[heading][0], y + AHEAD[heading][1])
+        ahead = (x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1])
         moves = [(x, y, (heading - 1) % 4), (x, y, (heading + 1) % 4)]
         if ahead in room and known.free(ahead):
             moves.append((*ahead, heading))

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..worlds.minigrid import codes, decode_floor, look_of
+from ..worlds import minigrid as mg
 
 EMPTY, WALL, FLOOR, DOOR, KEY, BALL, BOX, GOAL, LAVA = range(1, 10)
 OPENED, CLOSED, LOCKED = range(3)
@@ -42,10 +42,10 @@ class Vocabulary:
 @lru_cache(maxsize=1)
 def vocabulary() -> Vocabulary:
     """The tiles of MiniGrid, and coloured floors."""
-    known = np.array([*codes(), (0, 0, 0)], dtype=np.int64)
+    known = np.array([*mg.codes(), (0, 0, 0)], dtype=np.int64)
     kind, state = known[:, 0], known[:, 2]
     floor = np.array(
-        [-1 if k != FLOOR or (n := decode_floor(c, s)) is None else n for k, c, s in known.tolist()], dtype=np.int64
+        [-1 if k != FLOOR or (n := mg.decode_floor(c, s)) is None else n for k, c, s in known.tolist()], dtype=np.int64
     )
     door = kind == DOOR
     free = np.isin(kind, (EMPTY, FLOOR, GOAL)) | (door & (state == OPENED))
@@ -55,4 +55,4 @@ def vocabulary() -> Vocabulary:
 
 @lru_cache(maxsize=8)
 def _looks(pixels: int) -> NDArray[np.float64]:
-    return np.array([look_of(code, pixels=pixels).ravel() for code in codes()], dtype=np.float64)
+    return np.array([mg.look_of(code, pixels=pixels).ravel() for code in mg.codes()], dtype=np.float64)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..worlds.minigrid import AHEAD
+from ..worlds import minigrid as mg
 from .eyes import View
 from .room_map import Pose, RoomMap
 
@@ -87,7 +87,7 @@ def moved(pose: Pose, action: int, known: RoomMap) -> Pose:
     if action == RIGHT:
         return x, y, (heading + 1) % 4
     if action == FORWARD:
-        ahead = (x + AHEAD[heading][0], y + AHEAD[heading][1])
+        ahead = (x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1])
         if known.free(ahead) or not known.known(ahead):
             return (*ahead, heading)
     return pose

@@ -10,7 +10,7 @@ from gymnasium import spaces
 
 from ..model import UNSEEN
 from ..worlds import GRID, Maze, Motions, Observation, Place, WorldError
-from ..worlds.minigrid import WHITE, Unsteady, covering_low_steps, low_steps_between, rooms_env
+from ..worlds import minigrid as mg
 from .minigrid import UP, MiniGridBody
 from .protocol import Percept
 
@@ -44,7 +44,7 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
         self.action_space = spaces.Discrete(len(GRID.names))
         self._labels: dict[int, Any] = {number: self._named(label) for label, number in self.rooms.floors.items()}
         if self.rooms.white is not None:
-            self._labels[WHITE] = GOAL
+            self._labels[mg.WHITE] = GOAL
         seen = _Labels(tuple(self._labels.values()))
         self.observation_space = spaces.Dict({"sight": seen, "open": spaces.MultiBinary(len(GRID.names))})
         self._turn, self._percept = 0, Percept(None)
@@ -83,7 +83,7 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
             raise WorldError(f"no action {action!r}; use 0 to 4 ({', '.join(GRID.names)})")
         name, before = GRID.names[int(action)], self.body.reward
         body = self.body
-        self._percept = body.settle(WHITE) if name == "stay" else body.perform(self._way(name))
+        self._percept = body.settle(mg.WHITE) if name == "stay" else body.perform(self._way(name))
         return self._observation(), body.reward - before, False, body.ended, self._info()
 
     def observe(self) -> Observation:
@@ -101,14 +101,14 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
 
     def least_to_cover(self) -> int | None:
         """The fewest low-level steps in which every room can be entered; None where that is out of reach."""
-        return covering_low_steps(self.rooms.plan, self.rooms.tally.path[0])
+        return mg.covering_low_steps(self.rooms.plan, self.rooms.tally.path[0])
 
     def least_to(self, goal: Any) -> int | None:
         """The fewest low-level steps from here to the goal of that name, doors as they are; None of no goal."""
         goals = {self._named(label): tiles for label, tiles in self.rooms.goal_tiles.items()}
         if goal not in goals:
             return None
-        return low_steps_between(self.rooms.plan, self.rooms.tally.path[-1], goals[goal], shut=self.rooms.shut_doors)
+        return mg.low_steps_between(self.rooms.plan, self.rooms.tally.path[-1], goals[goal], shut=self.rooms.shut_doors)
 
     def low_level_steps_to_goal(self, begin: int) -> int:
         """Low-level steps since `begin`: until the white tile was stood on, or until now."""
@@ -162,9 +162,9 @@ def embodied(
     Raises:
         WorldError: MiniGrid is not installed, or what `rooms_env` and `Unsteady` raise.
     """
-    env: Any = rooms_env(maze, view=view, white=white, **geometry)
+    env: Any = mg.rooms_env(maze, view=view, white=white, **geometry)
     if noise:
-        env = Unsteady(env, **noise)
+        env = mg.Unsteady(env, **noise)
     return EmbodiedWorld(env, glance=glance, turned=turned)
 
 
