@@ -89,3 +89,6 @@ TABLE_RATES = Rates()
 
 TEXT_RATES = Rates(possible=(10.0, 7.0), impossible=(-10.0, -7.0), ceiling=10.0)
 """The paper's running text, which differs from its table."""
+
+PAPER_RATES = Rates(ceiling=_LARGE)
+"""The paper's table, as its agent goes by it: counts add up for ever."""

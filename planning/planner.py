@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model import CogmapError, Motions
-from .choices import Choice, Outward
+from .choices import Choice, Outward, Sampled
 from .local import LocalCache, LocalModel, MapHypotheses, MapView, Preferences, local_model
 from .plan import Plan, policy_posterior
-from .policies import MapGuided, PolicyGenerator
+from .policies import LShaped, MapGuided, PolicyGenerator
 from .rollout import evaluate
 from .terms import KINDS, TERMS, Term
 
@@ -59,6 +59,14 @@ class Planner:
                     f"planner: term {term.name} is of kind {term.kind!r} and sign {term.sign}; "
                     f"use one of {', '.join(KINDS)}, and 1.0 or -1.0"
                 )
+
+    @classmethod
+    def paper(cls) -> Planner:
+        """That of the paper's own agent: L-shaped paths (of its three ways the one that reaches 13 steps), and a draw.
+
+        The draw is from P(policy) (eq. 6).
+        """
+        return cls(policies=LShaped(), choice=Sampled())
 
     def check(self, motions: Motions, look_ahead: int) -> None:
         """Refuse, before any work, what could not be planned: see `PolicyGenerator.check`."""

@@ -48,6 +48,19 @@ def test_a_torus_is_found_to_close_on_itself(seed: int) -> None:
     assert all(agent.map.position(place) is not None for place in agent.map.places)
 
 
+def test_an_agent_that_is_moved_before_each_step_learns_that_it_is() -> None:
+    """The map is then one of rooms apart, each what it is recognised as, and no larger for that."""
+    world, rng = load_world("4x4"), np.random.default_rng(0)
+    agent = Agent(world.motions, settings=Settings(look_ahead=2), seed=0)
+    world.reset(seed=0)
+    rooms = [world.maze.rooms[int(number)] for number in rng.integers(16, size=45)]
+    for room in rooms:
+        agent.step(world.displace(room))
+    assert agent.hypotheses[0].places == len(set(rooms))
+    learned = {each.name: each.mean for each in agent.learned_rates}
+    assert learned["moved"] > 0.5
+
+
 @pytest.mark.parametrize(
     ("noise", "rate", "within"),
     [({"door": 0.05}, "way_misread", 0.03), ({"sight": 0.1}, "sight_misread", 0.06), ({"slip": 0.1}, "astray", 0.06)],

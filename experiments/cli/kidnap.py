@@ -17,7 +17,8 @@ def kidnap_command(
     seed: opt.Seed = 0,
     look_ahead: opt.LookAhead = 6,
     max_steps: opt.MaxStepsTwice = None,
-    policies: opt.Policies = "map_guided",
+    policies: opt.Policies = None,
+    preset: opt.Preset = "cogmap",
     jobs: opt.Jobs = 1,
     dask: opt.Dask = None,
     noise: opt.Noise = None,
@@ -37,7 +38,8 @@ def kidnap_command(
 
     lower: Any = {"view": view, "tiles": tiles, "turned": turned}
     place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
-    options: Any = {"agent": Parts.named(policies=policies, look_ahead=look_ahead, pose=pose), "max_steps": max_steps}
+    parts = Parts.named(preset=preset, policies=policies, look_ahead=look_ahead, pose=pose)
+    options: Any = {"agent": parts, "max_steps": max_steps}
     check_kidnap(place)
     check_outputs([json], inputs=[world])
     name, many = chart_of(place).name, runs or 1

@@ -28,7 +28,8 @@ def navigate_command(
     seed: opt.Seed = 0,
     look_ahead: opt.LookAhead = 6,
     max_steps: opt.MaxStepsTwice = None,
-    policies: opt.Policies = "map_guided",
+    policies: opt.Policies = None,
+    preset: opt.Preset = "cogmap",
     weight: Weight = 8.0,
     close: Close = None,
     jobs: opt.Jobs = 1,
@@ -57,7 +58,7 @@ def navigate_command(
     task: Any = {"weight": weight, "closed": [_room(text) for text in close or ()], "known": not unexplored}
     lab.check_goal(place, label, **task)
     lab.check_outputs([json, trace], inputs=[world])
-    parts = lab.Parts.named(agent, policies=policies, look_ahead=look_ahead, pose=pose)
+    parts = lab.Parts.named(agent, preset=preset, policies=policies, look_ahead=look_ahead, pose=pose)
     options: Any = {"goal": label, "agent": parts, "max_steps": max_steps, **task}
     with lab.workers(jobs=jobs, dask=dask) as executor, counting(f"navigating in {name}", many) as one_more:
         done = lab.navigate_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)

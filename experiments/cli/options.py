@@ -38,7 +38,13 @@ Runs = Annotated[
 Seed = Annotated[int, typer.Option(min=0, help="S: of the start room and of the agent.")]
 LookAhead = Annotated[int, typer.Option(min=1, help="Steps that policies look ahead (cogmap only).")]
 Policies = Annotated[
-    str, typer.Option(metavar="NAME", help="map_guided, self_avoiding, l_shaped or exhaustive (cogmap only).")
+    str | None,
+    typer.Option(
+        metavar="NAME", help="map_guided, self_avoiding, l_shaped or exhaustive (cogmap only). By the preset."
+    ),
+]
+Preset = Annotated[
+    str, typer.Option(metavar="NAME", help="cogmap, or paper: the paper's own agent and choices (cogmap only).")
 ]
 MaxStepsTwice = Annotated[
     int | None,

@@ -60,6 +60,9 @@ def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
 CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 0.5, 2.0))
 """It hardly ever happens, or else often enough, or else very often."""
 
+LEFT_ALONE = ((0.98, 0.5, 500.0), (0.015, 0.5, 20.0), (0.005, 0.5, 2.0))
+"""The same of what hardly any world does, and some do at every step."""
+
 READ = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 6.0, 14.0))
 """The same of a reading, which is right more often than not, or any map whatever would do, misread over and over."""
 
@@ -69,7 +72,7 @@ RATE_PRIORS = (
     _beta("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
     RatePrior("fails", "a move through an open way fails", CALM_OR_NOT),
     RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),
-    _beta("moved", 0.5, 500.0, "the agent is moved without a word"),
+    RatePrior("moved", "the agent is moved without a word", LEFT_ALONE),
     _beta("elsewhere", 0.25, 4.0, "a way leads where the pose does not say"),
     _beta("undone", 20.0, 0.5, "the reverse of an action leads back"),
     _beta("changed", 0.5, 500.0, "a way opens or closes between two looks"),
