@@ -11,8 +11,8 @@ from cogmap.agent import Agent, Settings
 from cogmap.experiments import Trail, Verdict
 from cogmap.experiments.running import Moment
 from cogmap.inference import TrackerOptions, infer
-from cogmap.model import CogmapError, NoPose
-from cogmap.worlds import NoisyWorld, load_world, place_of, torus
+from cogmap.model import CogmapError, NoPose, Sight
+from cogmap.worlds import NoisyWorld, UnseenWays, load_world, place_of, torus
 
 
 def walked(world: Any, agent: Agent, steps: int, *, seed: int = 0, moves: dict[int, Any] | None = None) -> Trail:
@@ -88,6 +88,22 @@ def test_without_positions_places_are_known_by_what_is_sensed() -> None:
     trail = walked(world, agent, 40)
     exact(agent, trail, world)
     assert agent.map.position(0) is None
+
+
+@pytest.mark.parametrize(("name", "steps"), [("3x3_alias", 22), ("t_maze_alias", 18)])
+def test_without_positions_squares_spare_a_walk_along_every_way(name: str, steps: int) -> None:
+    world = load_world(name)
+    agent = Agent(world.motions, pose=NoPose(), settings=Settings(look_ahead=4), seed=1)
+    trail = walked(world, agent, steps)
+    exact(agent, trail, world)
+
+
+@pytest.mark.parametrize(("pose", "name", "steps"), [(None, "3x3", 34), (NoPose(), "3x3", 40)])
+def test_ways_that_no_sensor_tells_of_are_tried(pose: NoPose | None, name: str, steps: int) -> None:
+    world = UnseenWays(load_world(name))
+    agent = Agent(world.unwrapped.motions, sensors=[Sight("sight")], pose=pose, settings=Settings(look_ahead=4), seed=0)
+    verdict = walked(world, agent, steps).verdict(agent, world.unwrapped.chart)
+    assert (verdict.map_right, verdict.places, verdict.known) == (True, 9, 1.0)
 
 
 def test_hypotheses_say_what_they_differ_in_and_are_saved(tmp_path: Path) -> None:

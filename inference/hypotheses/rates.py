@@ -82,11 +82,12 @@ RATE_PRIORS = (
         "relinked", 0.5, 24.5, "a way that was walked once leads elsewhere after all; by walks squared less for more"
     ),
     _beta("meeting", 0.5, 9.5, "one action leads from two places into one (where it is not known what undoes what)"),
+    _beta("square", 0.5, 0.5, "two actions lead to the same place in either order (without poses)"),
 )
 """Every rate, in the order of `RateCounts`."""
 
 OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE = range(7)
-UNDONE, CHANGED, BESIDE, NEW, RELINKED, MEETING = range(7, len(RATE_PRIORS))
+UNDONE, CHANGED, BESIDE, NEW, RELINKED, MEETING, SQUARE = range(7, len(RATE_PRIORS))
 
 CONCENTRATIONS = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
 """Concentrations of the Chinese restaurant process that are weighed against each other, evenly before any place."""
