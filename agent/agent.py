@@ -41,7 +41,7 @@ from .known_map import KnownMap
 from .mapper import Mapper
 from .packing import Arrays, pack, unpacked_state
 from .parts import made_of, parts_of
-from .perceiving import checked, percept_of
+from .perceiving import checked, percept_of, unseen_ways
 from .preferring import given_preferences, weighed
 from .recognition import Recognition
 from .settings import Settings
@@ -606,6 +606,7 @@ class Agent:
             starts=settings.starts,
             cache=self._cache,
             structure=None if preferences else self._recognition.question,  # what is preferred comes first
+            unseen=unseen_ways(self._state.percept, self.map.motions),
         )
 
 

@@ -88,6 +88,7 @@ class Planner:
         starts: int = 32,
         cache: LocalCache | None = None,
         structure: MapHypotheses | None = None,
+        unseen: Sequence[bool] = (),
     ) -> Plan:
         """Cut the local model out of a map, make policies, evaluate them, choose one.
 
@@ -105,6 +106,7 @@ class Planner:
             starts: places to set out from, at most.
             cache: of the map, kept from plan to plan.
             structure: hypotheses about the map, which policies may tell apart.
+            unseen: for each action, whether no sensor tells of its way, so that it is worth a try; none, unless told.
 
         Raises:
             CogmapError: what `local_model`, the generator or `policy_posterior` raise.
@@ -122,6 +124,7 @@ class Planner:
             cache=cache,
             beyond=self.policies.beyond,
             structure=structure,
+            unseen=unseen,
         )
         return self._decide(model, precision, rng)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from . import minigrid
 from .base import PlaceEnv
 from .behaviour import behaviour, distinguishable
 from .builtin import MAZES
@@ -69,6 +70,7 @@ __all__ = [
     "label_colour",
     "labyrinth",
     "load_world",
+    "minigrid",
     "offered",
     "office",
     "parse_maze",

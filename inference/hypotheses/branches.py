@@ -13,12 +13,16 @@ from .logs import log_sum
 from .rates import OPEN
 from .records import NOWHERE, Place
 from .scheme import Sensed
+from .squares import across
 
 CROWD = 8
 """Places from which on those that a silent move may have led to are one hypothesis, with a message over them."""
 
 MOST = 4096
 """Places into which a silent move is thought of at most, the last ones first seen."""
+
+SQUARES = 0.1
+"""Rate of squares that close below which none is thought of."""
 
 FAINT = 18.0
 """Nats below which a place of a crowd is let go."""
@@ -254,8 +258,10 @@ def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:
 
 
 def _returns(h: Hypothesis, place: Place, way: int) -> Lead:
-    """Without poses: back to where the agent once came from, as far as actions were found to undo each other."""
-    best, sure = NOWHERE, 0.0
+    """Without poses: to where the way closes a square, as far as they do; or back to where the agent once came from,
+    as far as actions were found to undo each other."""
+    best = across(h, place, way) if h.chances.square > SQUARES else NOWHERE
+    sure = 0.0 if best == NOWHERE else h.chances.square
     if h.scheme.inverse is None:
         for source, by in sorted(place.into):
             yes, no = h.undo.get((by, way), (0.0, 0.0))

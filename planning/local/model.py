@@ -49,6 +49,8 @@ class LocalModel:
         information_weight: weight of every information gain beside utility and costs, 0 or more.
         dropped: belief in places that were left out, before `belief` was made to sum to one again.
         structure: hypotheses about the map, side by side; None where there is but one.
+        untried: `[R, K]` nats that the first step along each way teaches, where no visit has told whether it is open;
+            None where that is nothing.
         kept: what was worked out of places, B, blocked, successor and entered alone, for models that share them.
     """
 
@@ -72,6 +74,7 @@ class LocalModel:
     dropped: float = 0.0
     structure: Structure | None = None
     kept: Kept | None = field(default=None, repr=False, compare=False)
+    untried: Floats | None = None
 
     @property
     def utility(self) -> Floats:
@@ -90,6 +93,7 @@ class LocalModel:
         return replace(
             self,
             kept=None,
+            untried=None if self.untried is None else self.untried[places],
             A=self.A[:, places],
             B=self.B.within(places),
             successor=number[self.successor[places]],
@@ -143,6 +147,7 @@ class LocalModel:
             "position": (R, len(self.motions.displacements[0])),
             "blocked": (R, K),
             **dict.fromkeys(("places", "log_C_place", "entered"), (R,)),
+            **({} if self.untried is None else {"untried": (R, K)}),
         }
         tables: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in shapes}
         for name, table in self.information.items():
