@@ -29,6 +29,7 @@ from ..model import (
     map_state,
     release,
     restore_map,
+    safe,
     take_slice,
     window_graph,
 )
@@ -506,6 +507,13 @@ class Agent:
         elif recognition.followed is None and agent._state.belief is not None:
             recognition.know(agent._state.belief.place, step=agent._state.steps)
         return agent
+
+    def _repr_html_(self) -> str:
+        """Its map, and where it believes to be."""
+        belief = (
+            f"<p>after {self.steps} steps: {safe(self.belief)}</p>" if self.steps else "<p>it has seen nothing yet</p>"
+        )
+        return f"<div>{belief}{self.map._repr_html_()}</div>"  # pyright: ignore[reportPrivateUsage]
 
     def __repr__(self) -> str:
         return f"Agent({self.map!r}, step {self.steps})"
