@@ -3,6 +3,9 @@
 Format, lint, types, import rules, tests with coverage, the documentation site, and the Python examples of README.md
 and docs/. Needs the test extra: pip install -e '.[test]'. Arguments go to pytest: check.py --study
 
+check.py --floors runs the tests alone, in an environment of its own with the oldest version of every package that
+pyproject.toml allows.
+
 Where the variable CI is set, the programs that some tests need, a browser and Graphviz, are installed first; elsewhere
 those tests are skipped if they are missing.
 """
@@ -18,7 +21,9 @@ import tempfile
 import time
 import tomllib
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parent
 LEAST_COVERAGE = 95  # per cent of the lines of the folders in [tool.coverage.run]
@@ -32,7 +37,7 @@ CHECKS: dict[str, Sequence[str]] = {
     "lint": ("-m", "ruff", "check", "."),
     "types": ("-m", "pyright", "--pythonpath", sys.executable),
     "import rules": ("-c", _LINT_IMPORTS),
-    "tests": ("-m", "pytest", "-n", str(JOBS), *_COVERAGE),
+    "tests": ("-m", "pytest", "-n", str(JOBS), "--dist", "loadgroup", *_COVERAGE),
 }
 
 
@@ -65,18 +70,47 @@ def laid_out(folder: Path) -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(folder)}
 
 
-def run(name: str, arguments: Sequence[str], *, folder: Path = ROOT, env: Mapping[str, str] | None = None) -> bool:
+def run(
+    name: str,
+    arguments: Sequence[str],
+    *,
+    folder: Path = ROOT,
+    env: Mapping[str, str] | None = None,
+    python: str = sys.executable,
+) -> bool:
     """Run Python with `arguments` in `folder`, say how it went, and whether it went well."""
     print(f"\n== {name}", flush=True)
     begin = time.perf_counter()
-    code = subprocess.run([sys.executable, *arguments], cwd=folder, env=env, stdin=subprocess.DEVNULL).returncode
+    code = subprocess.run([python, *arguments], cwd=folder, env=env, stdin=subprocess.DEVNULL).returncode
     seconds = time.perf_counter() - begin
     print(f"== {name}: {'ok' if code == 0 else f'FAILED (exit code {code})'}, {seconds:.1f} s", flush=True)
     return code == 0
 
 
+def floors(project: Mapping[str, Any]) -> list[str]:
+    """The oldest version of each package that a project names, as pip's constraints: `numpy==2.0` for `numpy>=2.0`."""
+    named = [*project["dependencies"], *chain.from_iterable(project["optional-dependencies"].values())]
+    found = (re.fullmatch(r"([\w.-]+)(?:\[[\w,]+\])?>=([\w.]+)", requirement) for requirement in named)
+    return sorted({f"{one[1]}=={one[2]}" for one in found if one})
+
+
+def check_floors(for_pytest: Sequence[str]) -> int:
+    """The tests with the oldest versions of everything; 1 if they fail, or cannot be installed together."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "floors.txt").write_text("\n".join(floors(project)) + "\n")
+        python = str(folder / "venv" / ("Scripts" if os.name == "nt" else "bin") / "python")
+        made = run("environment", ("-m", "venv", str(folder / "venv")))
+        words = ("-m", "pip", "install", "--quiet", "--constraint", str(folder / "floors.txt"), f"{ROOT}[test]")
+        fine = made and run("oldest versions", words, python=python)
+        return 0 if fine and run("tests", ("-m", "pytest", *for_pytest), python=python) else 1
+
+
 def main(for_pytest: Sequence[str] = ()) -> int:
     """Every check, then what failed."""
+    if "--floors" in for_pytest:
+        return check_floors([word for word in for_pytest if word != "--floors"])
     os.environ["PYRIGHT_PYTHON_IGNORE_WARNINGS"] = "1"  # that there is a newer one: ours is pinned
     os.environ["NO_MKDOCS_2_WARNING"] = "1"
     if os.environ.get("CI"):

@@ -29,6 +29,7 @@ from ..model import (
     map_state,
     release,
     restore_map,
+    safe,
     take_slice,
     window_graph,
 )
@@ -40,7 +41,7 @@ from .known_map import KnownMap
 from .mapper import Mapper
 from .packing import Arrays, pack, unpacked_state
 from .parts import made_of, parts_of
-from .perceiving import checked, percept_of
+from .perceiving import checked, percept_of, unseen_ways
 from .preferring import given_preferences, weighed
 from .recognition import Recognition
 from .settings import Settings
@@ -502,6 +503,13 @@ class Agent:
             recognition.know(agent._state.belief.place, step=agent._state.steps)
         return agent
 
+    def _repr_html_(self) -> str:
+        """Its map, and where it believes to be."""
+        belief = (
+            f"<p>after {self.steps} steps: {safe(self.belief)}</p>" if self.steps else "<p>it has seen nothing yet</p>"
+        )
+        return f"<div>{belief}{self.map._repr_html_()}</div>"  # pyright: ignore[reportPrivateUsage]
+
     def __repr__(self) -> str:
         return f"Agent({self.map!r}, step {self.steps})"
 
@@ -600,6 +608,7 @@ class Agent:
             starts=settings.starts,
             cache=self._cache,
             structure=None if preferences else self._recognition.question,  # what is preferred comes first
+            unseen=unseen_ways(self._state.percept, self.map.motions),
         )
 
 

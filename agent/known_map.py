@@ -96,7 +96,7 @@ def _read(source: Any) -> Any:
         content = read_file(path)
         content = unpack_gzip(path, content) if path.endswith(".gz") else content
         if path.removesuffix(".gz").endswith(".graphml"):
-            return nx.parse_graphml(content.decode())
+            return _unwritten(nx.parse_graphml(content.decode()))
         data: Any = parse_json(content)
         return nx.node_link_graph(data, edges="edges" if "edges" in data else "links")
     except CogmapError:
@@ -108,3 +108,15 @@ def _read(source: Any) -> Any:
     except Exception as error:  # whatever networkx makes of what is no graph
         kind = type(error).__name__
         raise CogmapError(f"map {path}: it is no graph in node-link JSON or GraphML ({kind}); give one") from error
+
+
+def _unwritten(graph: Any) -> Any:
+    """The graph with positions and sights that an agent's map had, which GraphML holds as JSON text."""
+    for _, facts in graph.nodes(data=True):
+        for name, value in facts.items():
+            if isinstance(value, str) and value[:1] in ("[", "{"):
+                try:
+                    facts[name] = parse_json(value.encode())
+                except ValueError:  # a label that begins so
+                    continue
+    return graph

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..model import OUTCOMES, UNSEEN, CogmapError, GenerativeModel, Outcome, Percept
+from ..model import OUTCOMES, UNSEEN, CogmapError, GenerativeModel, Motions, Outcome, Percept
 
 
 def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str, Any]:
@@ -70,6 +70,12 @@ def percept_of(
         moved=values.get("moved", False),
         cost=values.get("cost"),
     )
+
+
+def unseen_ways(percept: Percept | None, motions: Motions) -> tuple[bool, ...]:
+    """For each action whether a percept does not tell of its way."""
+    seen = (percept or Percept()).ways(len(motions))
+    return tuple(way is None and action != motions.stay for action, way in enumerate(seen))
 
 
 def _sensed(check: Callable[[Any], Any], value: Any) -> Any:

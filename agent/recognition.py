@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inference import (
+    NOWHERE,
     Belief,
     Hypothesis,
     Message,
@@ -18,6 +19,7 @@ from ..inference import (
     RateOf,
     Tracker,
     TrackerOptions,
+    open_probability,
     rates_of,
     tracker_knowing,
     ways_misread,
@@ -146,9 +148,9 @@ class Recognition:
 
     @property
     def question(self) -> OpenQuestion | None:
-        """What is worth telling apart; None where nothing is, or new places are left to see, which tell as well."""
+        """What is worth telling apart; None where nothing is, or new places are within reach, which tell as well."""
         hypotheses = self.tracker.hypotheses
-        if len(hypotheses) < 2 or not self._map.visited.all():
+        if len(hypotheses) < 2 or not (self._map.visited.all() or _enclosed(self._now)):
             return None
         return OpenQuestion(hypotheses, self.sensing.ways)
 
@@ -276,3 +278,20 @@ class Recognition:
     def _weights(self) -> list[tuple[Hypothesis, float]]:
         others = [h for h in self.tracker.hypotheses if h is not self.followed]
         return [(h, exp(h.weight)) for h in (self._now, *others)]
+
+
+def _enclosed(h: Hypothesis) -> bool:
+    """Whether no open way leads from where the agent is to a place never seen, however far."""
+    found = {h.here}
+    queue = [h.here]
+    for number in queue:
+        record = h.places[number]
+        for way in range(h.scheme.count):
+            if open_probability(h, number, way) > 0.5:
+                to = h.neighbour(record, way)
+                if to == NOWHERE:
+                    return False
+                if to not in found:
+                    found.add(to)
+                    queue.append(to)
+    return True

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import log
 
 import numpy as np
 
 from ..inference import Sensed, WayScheme
 from ..model import GenerativeModel, Percept
+
+UNSURE = 0.25
+"""P(the move failed) at least, where the body is not sure of it."""
 
 
 class Sensing:
@@ -50,15 +54,29 @@ class Sensing:
         readings, open_ = percept.readings, percept.ways(len(self._model.motions))
         sights = tuple(readings.get(sensor.name) for sensor in self._model.sights_sensed) or (None,)
         ways = tuple(open_[action] for action in self.actions) or (None,)
-        action = None if percept.outcome == "blocked" else percept.action
+        action = None if percept.action is None else self.ways.get(percept.action)
         return Sensed(
             sights,
             ways,
-            None if action is None else self.ways.get(action),
-            certain=percept.taken or percept.outcome == "arrived",
+            action,
+            certain=percept.taken or percept.outcome in ("arrived", "blocked"),
             told=percept.moved,
             others=self._told(percept, place) if any(name in readings for name in self._others) else None,
+            went=self._went(percept, moves=action is not None),
+            fails=UNSURE if percept.outcome == "unsure" and action is not None else 0.0,
         )
+
+    def _went(self, percept: Percept, *, moves: bool) -> tuple[float, ...] | None:
+        """Log-likelihood of what odometry measured and the body said, if each way was taken, and last if none was."""
+        measured, said = self._model.pose.measured(percept), moves and percept.outcome in ("arrived", "blocked")
+        if (measured is None and not said) or not self.actions:
+            return None
+        each = np.zeros(len(self._model.motions)) if measured is None else measured
+        went = each[[*self.actions, self._model.motions.stay]]
+        if said:
+            lie = log(self._model.priors.door_floor)  # the body is wrong as rarely as a door is believed otherwise
+            went[slice(-1, None) if percept.outcome == "arrived" else slice(-1)] += lie
+        return tuple((went - went.max()).tolist())
 
     def _told(self, percept: Percept, place: Callable[[int], int | None]) -> Callable[[int | None], float]:
         """What sensors of other kinds say of a place; None stands for one never seen."""

@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..inference import ENGINES, FilterOptions, TrackerOptions
-from ..model import CogmapError, Priors, Rates, is_number
+from ..model import PAPER_RATES, CogmapError, Priors, Rates, is_number
 from ..planning import MAX_LOOK_AHEAD
 
 
@@ -75,6 +75,22 @@ class Settings:
                 _check(is_number(value, least, most), name, value, f"use a number from {least:g} to {most:g}")
         known = isinstance(self.engine, str) and self.engine in ENGINES  # pyright: ignore[reportUnnecessaryIsInstance]
         _check(known, "engine", self.engine, f"choose one of {', '.join(ENGINES)}")
+
+    @classmethod
+    def paper(cls, **others: Any) -> Settings:
+        """Those of the paper's own agent; `Planner.paper()` has its policies and its draw from P(policy).
+
+        γ is 16, steps are not discounted, rates are those of its table and add up for ever, and a place is its
+        position: its map is never in question. What else departs from the paper is no number (docs/deviations.md).
+
+        Args:
+            **others: settings that are to be otherwise, such as `look_ahead=13`.
+
+        Raises:
+            CogmapError: as for `Settings`.
+        """
+        chosen: dict[str, Any] = {"precision": 16.0, "discount": 1.0, "rates": PAPER_RATES, "hypotheses": None}
+        return cls(**{**chosen, **others})
 
     def to_dict(self) -> dict[str, Any]:
         """The settings as plain JSON values."""

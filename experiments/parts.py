@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, Self
 
@@ -10,7 +11,7 @@ import numpy as np
 from ..agent import Agent, Settings
 from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
 from ..model import GROWTHS, POSES, Bearings, CogmapError, Pose, Sensor, Sight, StaticGrowth, Ways
-from ..planning import CHOICES, POLICIES, MapGuided, Planner
+from ..planning import CHOICES, POLICIES, LShaped, MapGuided, Planner, Sampled
 from ..worlds import Chart, HasChart, Motions, World, offered
 
 CSCG = {
@@ -22,6 +23,12 @@ CSCG = {
 """The four variants of the paper: whether it is given its position, and how it moves."""
 
 _FIRST = ("look_ahead", "policies", "beam", "starts", "precision", "choice", "growth", "places")  # in files
+
+PRESETS: dict[str, tuple[Callable[..., Settings], dict[str, Any]]] = {
+    "cogmap": (Settings, {}),
+    "paper": (Settings.paper, {"policies": LShaped.name, "choice": Sampled.name}),
+}
+"""Agents that are made as one: settings, and the names of parts that differ from the default."""
 
 AGENTS = ("cogmap", "frontier", "random", *CSCG)
 
@@ -76,10 +83,18 @@ class Parts:
                 raise CogmapError(f"settings: {name} is {value!r}; choose one of {', '.join(known)}")
 
     @classmethod
-    def named(cls, agent: str = "cogmap", **options: Any) -> Self:
-        """From the options of the command line: names of parts, look_ahead, engine."""
-        numbers = {name: options.pop(name) for name in ("look_ahead", "engine") if name in options}
-        return cls(agent, Settings(**numbers), **options)
+    def named(cls, agent: str = "cogmap", *, preset: str = "cogmap", **options: Any) -> Self:
+        """From the options of the command line: names of parts, look_ahead, engine; what is None is the preset's.
+
+        Raises:
+            CogmapError: no preset has this name, and as for the parts.
+        """
+        if preset not in PRESETS:
+            raise CogmapError(f"no preset is called {preset!r}; choose one of {', '.join(PRESETS)}")
+        make, parts = PRESETS[preset]
+        given = {name: value for name, value in options.items() if value is not None}
+        numbers = {name: given.pop(name) for name in ("look_ahead", "engine") if name in given}
+        return cls(agent, make(**numbers), **{**parts, **given})
 
     def growing(self, growth: str) -> Self:
         """The same with another growth."""

@@ -82,7 +82,7 @@ from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .percept import OUTCOMES, Outcome, Percept
 from .periods import Periods, reduced, with_period
-from .rates import TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
+from .rates import PAPER_RATES, TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
 from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file, unpack_gzip
 from .savepoint import Savepoint, go_back, release, savepoint
 from .slices import Slice, take_slice, window_graph
@@ -98,6 +98,7 @@ __all__ = [
     "LEAST",
     "OPEN",
     "OUTCOMES",
+    "PAPER_RATES",
     "POSES",
     "SENSORS",
     "STEPS",

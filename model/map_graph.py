@@ -10,8 +10,9 @@ import numpy as np
 
 from .factors import BLOCKED, OPEN, Sight
 from .graph import quoted
-from .labels import encode, plain, shown
+from .labels import shown
 from .readable_map import ReadableMap
+from .written import PlaceFacts, shares_json
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -22,16 +23,18 @@ LEAST = 1e-3  # probability of a sight that is told, and of a transition that Gr
 def map_graph(map_: ReadableMap) -> nx.MultiDiGraph[Any]:
     """Places as nodes, transitions as edges keyed by action name.
 
-    Nodes carry `position` (None where it has none), `visited` (else it was imagined only), and `sights`
-    (label -> probability above a thousandth; what another sensor of labels sees stands under its name). Edges carry
-    `action`, `probability` (of B_s), `count` (the evidence for it, prior left out), and `known`, what is known of this
-    way out of the place: `walked`, `imagined` (its door was sensed open), `refuted` (sensed blocked) or `unknown` (its
-    door was never sensed from this side; it may still have a `count`, which came with the way here). Beyond a door
-    without a known place there is no edge.
+    Nodes carry `position` (None where it has none), `visited` (else it was imagined only), and
+    `sights` (label -> probability above a thousandth; what another sensor of labels sees stands under its name).
+    Edges carry `action`, `probability` (of B_s), `count` (the evidence for it, prior left out), and `known`, what is
+    known of this way out of the place: `walked`, `imagined` (its door was sensed open), `refuted` (sensed blocked) or
+    `unknown` (its door was never sensed from this side; it may still have a `count`, which came with the way here).
+    Beyond a door without a known place there is no edge, and none through a door that is sensed blocked: that way leads
+    back to the place itself. networkx writes it as GraphML and GEXF, positions and sights as JSON text.
     """
     import networkx as nx
 
-    graph: nx.MultiDiGraph[Any] = nx.MultiDiGraph()
+    graph: Any = nx.MultiDiGraph()
+    graph.node_attr_dict_factory = PlaceFacts
     seen = [_sights(map_, sight) for sight in map_.sights_sensed]
     names = ["sights", *(sight.name for sight in map_.sights_sensed[1:])]
     for place in map_.places:
@@ -40,6 +43,8 @@ def map_graph(map_: ReadableMap) -> nx.MultiDiGraph[Any]:
     for place, action, next_, probability, count in transitions(map_):
         name = map_.motions.names[action]
         known = how_known(map_, place, action)
+        if known == "refuted" and next_ != place:
+            continue
         graph.add_edge(place, next_, key=name, action=name, probability=probability, count=count, known=known)
     return graph
 
@@ -130,11 +135,7 @@ def _displacements(map_: ReadableMap) -> list[list[int]]:
 
 def _plain_place(facts: dict[str, Any]) -> dict[str, Any]:
     position = None if facts["position"] is None else list(facts["position"])
-    seen = {
-        name: [{"sight": encode(plain(label), where="map"), "probability": p} for label, p in labels.items()]
-        for name, labels in facts.items()
-        if isinstance(labels, dict)
-    }
+    seen = {name: shares_json(facts[name]) for name in facts if isinstance(facts[name], dict)}
     return {**facts, "position": position, **seen}
 
 

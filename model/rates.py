@@ -9,6 +9,8 @@ import numpy as np
 from .errors import CogmapError
 
 _TINY, _LARGE = 1e-300, 1e12
+_LEAST_FLOOR = 1e-15
+"""Of doors: one minus less than this is one, and what is certain can never be otherwise."""
 
 
 def is_number(value: object, least: float, most: float) -> bool:
@@ -30,7 +32,7 @@ class Priors:
         door_floor: a door is never believed open or blocked beyond `1 - door_floor`.
 
     Raises:
-        CogmapError: a number is not positive, or `door_floor` above a half.
+        CogmapError: a number is not positive, or `door_floor` below 1e-15 or above a half.
     """
 
     sight: float = 1e-9
@@ -40,9 +42,9 @@ class Priors:
 
     def __post_init__(self) -> None:
         for name, value in zip((field.name for field in fields(self)), astuple(self), strict=True):
-            most = 0.5 if name == "door_floor" else _LARGE
-            if not is_number(value, _TINY, most):
-                raise CogmapError(f"settings: priors.{name} is {value!r}; use a number above 0, at most {most:g}")
+            least, most = (_LEAST_FLOOR, 0.5) if name == "door_floor" else (_TINY, _LARGE)
+            if not is_number(value, least, most):
+                raise CogmapError(f"settings: priors.{name} is {value!r}; use a number from {least:g} to {most:g}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,3 +89,6 @@ TABLE_RATES = Rates()
 
 TEXT_RATES = Rates(possible=(10.0, 7.0), impossible=(-10.0, -7.0), ceiling=10.0)
 """The paper's running text, which differs from its table."""
+
+PAPER_RATES = Rates(ceiling=_LARGE)
+"""The paper's table, as its agent goes by it: counts add up for ever."""

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model import CogmapError, Motions
-from .choices import Choice, Outward
+from .choices import Choice, Outward, Sampled
 from .local import LocalCache, LocalModel, MapHypotheses, MapView, Preferences, local_model
 from .plan import Plan, policy_posterior
-from .policies import MapGuided, Options, PolicyGenerator
+from .policies import LShaped, MapGuided, Options, PolicyGenerator
 from .rollout import evaluate
 from .terms import KINDS, TERMS, Term
 
@@ -73,6 +73,14 @@ class Planner:
         """Whether it plans as any planner does that is given nothing."""
         return isinstance(self.policies, MapGuided) and self.terms == TERMS and self.choice == Outward()
 
+    @classmethod
+    def paper(cls) -> Planner:
+        """That of the paper's own agent: L-shaped paths (of its three ways the one that reaches 13 steps), and a draw.
+
+        The draw is from P(policy) (eq. 6).
+        """
+        return cls(policies=LShaped(), choice=Sampled())
+
     def check(self, motions: Motions, look_ahead: int) -> None:
         """Refuse, before any work, what could not be planned: see `PolicyGenerator.check`."""
         self.policies.check(motions, look_ahead)
@@ -93,6 +101,7 @@ class Planner:
         starts: int = 32,
         cache: LocalCache | None = None,
         structure: MapHypotheses | None = None,
+        unseen: Sequence[bool] = (),
     ) -> Plan:
         """Cut the local model out of a map, make policies, evaluate them, choose one.
 
@@ -110,6 +119,7 @@ class Planner:
             starts: places to set out from, at most.
             cache: of the map, kept from plan to plan.
             structure: hypotheses about the map, which policies may tell apart.
+            unseen: for each action, whether no sensor tells of its way, so that it is worth a try; none, unless told.
 
         Raises:
             CogmapError: what `local_model`, the generator or `policy_posterior` raise.
@@ -128,6 +138,7 @@ class Planner:
             beyond=self.policies.beyond,
             structure=structure,
             explorer=None if self.explorer is None else self.explorer.found,
+            unseen=unseen,
         )
         return self._decide(model, precision, rng)
 

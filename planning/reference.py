@@ -36,13 +36,16 @@ def steps_of(model: LocalModel, policy: Sequence[int]) -> list[Step]:
     places = range(len(model.belief))
     belief: list[float] = model.belief.tolist()
     visits, reached = [0.0 for _ in places], [0.0 for _ in places]
+    tried: dict[tuple[int, int], float] = {}
     steps: list[Step] = []
     for t, action in enumerate(policy):
         after = predicted_places(model, belief, action)
         more = [visits[s] + after[s] for s in places]
         likelier = [max(reached[s], after[s]) for s in places]
-        steps.append(Step(model, action, belief, after, visits, more, reached, likelier, policy[: t + 1]))
-        belief, visits, reached = after, more, likelier
+        also = tried | {(s, action): max(tried.get((s, action), 0.0), belief[s]) for s in places}
+        path = policy[: t + 1]
+        steps.append(Step(model, action, belief, after, visits, more, reached, likelier, path, tried, also))
+        belief, visits, reached, tried = after, more, likelier, also
     return steps
 
 

@@ -36,9 +36,13 @@ def random_model(
         A = rng.dirichlet(np.full(sights, 0.5), places).T
     blocked = rng.random((places, kinds))
     blocked[:, motions.stay] = 0.0
+    untried = rng.random((places, kinds)) * (rng.random((places, kinds)) < 0.4) if seed % 2 else None
+    if untried is not None:
+        untried[:, motions.stay] = 0.0
     return LocalModel(
         motions=motions,
         look_ahead=look_ahead,
+        untried=untried,
         places=np.arange(places) + 7,
         belief=belief,
         A=np.ascontiguousarray(A),

@@ -11,8 +11,8 @@ from cogmap.agent import Agent, Settings
 from cogmap.experiments import Trail, Verdict
 from cogmap.experiments.running import Moment
 from cogmap.inference import TrackerOptions, infer
-from cogmap.model import CogmapError, NoPose
-from cogmap.worlds import NoisyWorld, load_world, place_of, torus
+from cogmap.model import CogmapError, NoPose, Sight
+from cogmap.worlds import NoisyWorld, UnseenWays, load_world, place_of, torus
 
 
 def walked(world: Any, agent: Agent, steps: int, *, seed: int = 0, moves: dict[int, Any] | None = None) -> Trail:
@@ -48,6 +48,19 @@ def test_a_torus_is_found_to_close_on_itself(seed: int) -> None:
     assert all(agent.map.position(place) is not None for place in agent.map.places)
 
 
+def test_an_agent_that_is_moved_before_each_step_learns_that_it_is() -> None:
+    """The map is then one of rooms apart, each what it is recognised as, and no larger for that."""
+    world, rng = load_world("4x4"), np.random.default_rng(0)
+    agent = Agent(world.motions, settings=Settings(look_ahead=2), seed=0)
+    world.reset(seed=0)
+    rooms = [world.maze.rooms[int(number)] for number in rng.integers(16, size=45)]
+    for room in rooms:
+        agent.step(world.displace(room))
+    assert agent.hypotheses[0].places == len(set(rooms))
+    learned = {each.name: each.mean for each in agent.learned_rates}
+    assert learned["moved"] > 0.5
+
+
 @pytest.mark.parametrize(
     ("noise", "rate", "within"),
     [({"door": 0.05}, "way_misread", 0.03), ({"sight": 0.1}, "sight_misread", 0.06), ({"slip": 0.1}, "astray", 0.06)],
@@ -75,6 +88,22 @@ def test_without_positions_places_are_known_by_what_is_sensed() -> None:
     trail = walked(world, agent, 40)
     exact(agent, trail, world)
     assert agent.map.position(0) is None
+
+
+@pytest.mark.parametrize(("name", "steps"), [("3x3_alias", 22), ("t_maze_alias", 18)])
+def test_without_positions_squares_spare_a_walk_along_every_way(name: str, steps: int) -> None:
+    world = load_world(name)
+    agent = Agent(world.motions, pose=NoPose(), settings=Settings(look_ahead=4), seed=1)
+    trail = walked(world, agent, steps)
+    exact(agent, trail, world)
+
+
+@pytest.mark.parametrize(("pose", "name", "steps"), [(None, "3x3", 34), (NoPose(), "3x3", 40)])
+def test_ways_that_no_sensor_tells_of_are_tried(pose: NoPose | None, name: str, steps: int) -> None:
+    world = UnseenWays(load_world(name))
+    agent = Agent(world.unwrapped.motions, sensors=[Sight("sight")], pose=pose, settings=Settings(look_ahead=4), seed=0)
+    verdict = walked(world, agent, steps).verdict(agent, world.unwrapped.chart)
+    assert (verdict.map_right, verdict.places, verdict.known) == (True, 9, 1.0)
 
 
 def test_hypotheses_say_what_they_differ_in_and_are_saved(tmp_path: Path) -> None:

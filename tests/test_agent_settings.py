@@ -12,6 +12,7 @@ from cogmap.agent import Agent, Settings
 from cogmap.inference import FilterOptions
 from cogmap.model import TEXT_RATES, CogmapError, Lattice, PredictedGrowth, Priors, Rates, Sight, StaticGrowth
 from cogmap.planning import Exhaustive, LShaped, MapGuided, Planner, SelfAvoiding
+from cogmap.worlds import load_world
 from hypothesis import given
 from hypothesis import settings as budget
 from hypothesis import strategies as st
@@ -230,3 +231,21 @@ def test_seeds(seed: Any) -> None:
 def test_a_bad_seed_is_refused(seed: Any) -> None:
     with pytest.raises(CogmapError, match="seed is"):
         Agent({"left": (-1,), "right": (1,), "stay": (0,)}, seed=seed)
+
+
+def test_the_papers_agent() -> None:
+    settings, planner = Settings.paper(look_ahead=13), Planner.paper()
+    assert (settings.precision, settings.discount, settings.look_ahead) == (16.0, 1.0, 13)
+    assert settings.hypotheses is None
+    assert (settings.rates.possible, settings.rates.impossible, settings.rates.imagined) == ((7, 5), (-7, -5), (5, 3))
+    assert Settings.from_dict(json.loads(json.dumps(settings.to_dict()))) == settings
+    world = load_world("3x3_alias")
+    observation, _ = world.reset(seed=0)
+    agent = Agent(world.motions, settings=Settings.paper(), planner=planner, seed=0)
+    for _ in range(30):
+        observation, *_ = world.step(agent.step(observation))
+    assert len(agent.plan.policies) == 4 * 6**2 + 1
+    assert agent.plan.choice.name == "sampled"
+    assert agent.map.visited.sum() == len(agent.map.places) == 9
+    with pytest.raises(CogmapError, match="discount is 2"):
+        Settings.paper(discount=2)

@@ -37,6 +37,14 @@ def test_an_agent_led_along_a_recorded_animal_is_where_it_is_led(tmp_path: Path)
     assert "0 of 150 steps astray" in printed
 
 
+def test_long_walks_say_what_has_grown(tmp_path: Path) -> None:
+    _, result = measured("long.py", tmp_path, "plain", "noise", "--steps", "20")
+    plain, noisy = result["rows"]
+    assert (plain["form"], plain["places"], plain["rooms"], noisy["form"]) == ("plain", 9, 9, "noise")
+    assert 0.8 < plain["growth"] < 1.5
+    assert plain["ratio"] > 0.0
+
+
 def test_detours_are_walked_around_shut_doors(tmp_path: Path) -> None:
     asked = ("--worlds", "donut", "t_maze", "random", "--look-ahead", "2", "6", "--ways", "2")
     printed, result = measured("detours.py", tmp_path, *asked)

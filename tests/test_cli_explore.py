@@ -264,6 +264,21 @@ def test_the_defaults_are_those_of_the_library() -> None:
     assert saved["settings"] == json.loads(json.dumps(Parts().to_dict(MAZES["3x3"])))
 
 
+def test_the_agent_of_the_paper() -> None:
+    assert cogmap("explore", "3x3", "--runs", 2, "--preset", "paper", "--json", "p.json").exit_code == 0
+    settings = json.loads(Path("p.json").read_text())["settings"]
+    assert (settings["policies"], settings["choice"], settings["discount"]) == ("l_shaped", "sampled", 1.0)
+    assert settings["hypotheses"] is None
+    other = cogmap(
+        "explore", "3x3", "--runs", 1, "--preset", "paper", "--policies", "self_avoiding", "--json", "o.json"
+    )
+    assert other.exit_code == 0
+    assert json.loads(Path("o.json").read_text())["settings"]["policies"] == "self_avoiding"
+    refused = cogmap("explore", "3x3", "--preset", "rat")
+    assert (refused.exit_code, refused.stderr.count("\n")) == (2, 1)
+    assert "choose one of cogmap, paper" in refused.stderr
+
+
 def test_energies_are_drawn_as_lines_of_signs() -> None:
     lines = cogmap("explore", "3x3").stdout.splitlines()
     drawn = [set(line) & set("▁▂▃▄▅▆▇█") for line in lines if line.startswith(("free energy F", "expected free"))]

@@ -357,7 +357,7 @@ def test_an_end_from_outside_leaves_the_rows_and_no_process(tmp_path: Path, blow
         assert row == run_cell(Cell(SMALL, "cogmap", 0))
 
 
-def _gone(pids: list[str], *, patience: float = 5.0) -> bool:
+def _gone(pids: list[str], *, patience: float = 60.0) -> bool:
     """Whether these processes have ended, be it that nobody has asked for their exit code yet."""
     until = time.monotonic() + patience
     while time.monotonic() < until:

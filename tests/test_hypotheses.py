@@ -13,7 +13,8 @@ from cogmap.inference.hypotheses.chances import Chances
 from cogmap.inference.hypotheses.evidence import probability, way_odds
 from cogmap.inference.hypotheses.layered import Layered
 from cogmap.inference.hypotheses.pruning import alike
-from cogmap.inference.hypotheses.rates import MOVED, RATE_PRIORS, RateCounts, crp_evidence, crp_predictive
+from cogmap.inference.hypotheses.rates import MOVED, RATE_PRIORS, SQUARE, RateCounts, crp_evidence, crp_predictive
+from cogmap.inference.hypotheses.squares import across, tally
 from cogmap.inference.hypotheses.straightening import straightened
 from cogmap.inference.hypotheses.weighing import door_evidence
 from cogmap.model import CogmapError, reduced, with_period
@@ -282,3 +283,53 @@ def test_a_link_off_the_chart_that_the_other_side_denies_was_a_silent_move():
     assert straight.counts.yes[MOVED] == h.counts.yes[MOVED] + 1.0
     assert straightened(h, here, floor=h.weight + 100.0) is None
     assert all(straightened(tracker.best, number, floor=-1e9) is None for number in tracker.best.places)
+
+
+def test_three_sides_of_a_square_say_where_its_fourth_leads_as_often_as_they_did():
+    tracker = Tracker(UNPLACED)
+    walk(tracker, Grid([[0, 1, 2], [3, 4, 5], [6, 7, 8]]), "RDLU")
+    h = tracker.best
+    assert h.size == 4
+    assert (h.counts.yes[SQUARE], h.counts.no[SQUARE]) == (1.0, 0.0)
+    assert tally(h, list(h.places)) == (1.0, 0.0)
+    walk(tracker, Grid([[0, 1, 2], [3, 4, 5], [6, 7, 8]], at=(0, 0)), "RRD")
+    h = tracker.best
+    place, middle = h.places[h.here], next(k for k in h.places if h.places[k].label() == 4)
+    assert place.ways[2].to == NOWHERE
+    assert across(h, place, 2) == h.neighbour(place, 2) == middle
+    lead = leads(h, h.here, place, 2)
+    assert (lead.to, lead.sure) == (middle, h.chances.square)
+    walk(tracker, Grid([[0, 1, 2], [3, 4, 5], [6, 7, 8]], at=(1, 2)), "D")
+    h = tracker.best
+    assert across(h, h.places[h.here], 2) == NOWHERE  # two sides only
+
+
+def test_squares_that_do_not_close_are_counted_and_not_expected():
+    tracker, at, rng = Tracker(WayScheme(2)), 0, np.random.default_rng(3)
+    tracker.step(Sensed((0,), (1.0, 1.0)), [8])
+    for _ in range(60):
+        action = int(rng.integers(2))
+        at = (5 * at + 2) % 8 if action else (at + 1) % 8  # 5k + 3 in one order, 5k + 7 in the other
+        tracker.step(Sensed((at,), (1.0, 1.0), action), [8])
+    h = tracker.best
+    assert h.size == 8
+    assert (h.counts.yes[SQUARE], h.counts.no[SQUARE]) == tally(h, list(h.places)) == (0.0, 8.0)
+    assert h.chances.square < 0.1
+
+
+@pytest.mark.parametrize("sights", [[[0, 0, 1], [2, 0, 4], [3, 3, 3]], [[0, 1, 0], [1, 2, 1], [0, 1, 0]]])
+def test_squares_spare_an_agent_without_poses_the_walk_along_every_way(sights):
+    tracker = Tracker(UNPLACED)
+    walk(tracker, Grid(sights), "RDLURRDDLLUR")
+    h, inferred = tracker.best, 0
+    at = {h.here: (1, 1)}
+    for number in (queue := [h.here]):
+        for way, (down, right) in enumerate(STEPS):
+            r, c = at[number][0] + down, at[number][1] + right
+            to = h.neighbour(h.places[number], way)
+            if 0 <= r < 3 and 0 <= c < 3 and to != NOWHERE:
+                assert at.setdefault(to, (r, c)) == (r, c)
+                inferred += h.places[number].ways[way].to == NOWHERE
+                queue += [to] if to not in queue else []
+    assert h.size == len(at) == 9
+    assert inferred >= 2

@@ -104,7 +104,17 @@ def random_percept(map_: CognitiveMap, rng: np.random.Generator, action: int) ->
             readings[name] = {int(label): float(rng.random()) for label in rng.permutation(3)[: rng.integers(2, 4)]}
     outcome = [None, None, "arrived", "blocked", "unsure"][int(rng.integers(5))]
     opened, moved = bool(rng.random() < 0.5), map_.displacement is not None and bool(rng.random() < 0.1)
-    return Percept(action, opened, readings, outcome=outcome, moved=moved)  # type: ignore[arg-type]
+    measured = tuple(rng.normal(size=2)) if rng.random() < 0.5 else None
+    return Percept(action, opened, readings, outcome=outcome, displacement=measured, moved=moved)  # type: ignore[arg-type]
+
+
+def likelihood(map_: CognitiveMap, percept: Percept, action: int) -> float:
+    """Of the measured displacement, if that was the move: a Student t, over that of the move that fits best."""
+    if percept.displacement is None:
+        return 1.0
+    far = [np.sum(np.square(np.subtract(percept.displacement, move))) for move in map_.motions.displacements]
+    density = [(1.0 + square / (3.0 * 0.1**2)) ** -2.5 for square in far]
+    return density[action] / max(density)
 
 
 def brute_force(map_: CognitiveMap, q: np.ndarray, percept: Percept, slip: float) -> tuple[np.ndarray, np.ndarray]:
@@ -125,11 +135,14 @@ def brute_force(map_: CognitiveMap, q: np.ndarray, percept: Percept, slip: float
     moves = 1.0 - slip if percept.opened else slip
     moves = 1.0 if a == map_.motions.stay else moves
     B_p = np.zeros((P, P)) if lattice else np.ones((1, 1))
+    told = np.ones((P, P))  # likelihood of the displacement that was measured
     for p in range(P if lattice else 0):
         ahead = map_.positions.find(map_.motions.move(map_.positions[p], a))  # type: ignore[arg-type]
         if ahead is not None:
             B_p[ahead, p] += moves
+            told[ahead, p] = likelihood(map_, percept, a)
         B_p[p, p] += 1.0 - moves
+        told[p, p] = likelihood(map_, percept, map_.motions.stay)
     joint = np.zeros((S, P, S, P, 2))
     d = map_.displacement.probability if map_.displacement else 0.0
     d = 1.0 if percept.moved else d
@@ -137,6 +150,7 @@ def brute_force(map_: CognitiveMap, q: np.ndarray, percept: Percept, slip: float
     arrival = map_.visited / map_.visited.sum()
     joint[..., 1] = d * np.einsum("i,ki,jl->ikjl", arrival, A_p, q)
     predicted = joint.copy()
+    joint[..., 0] *= told[None, :, None, :]
     if percept.outcome in ("arrived", "blocked") and a != map_.motions.stay:
         stayed = np.eye(S, dtype=bool)
         wrong = ~stayed if percept.outcome == "blocked" else stayed

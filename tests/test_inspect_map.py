@@ -19,7 +19,10 @@ from walks import GRID, UP, walked
 def test_the_graph_is_the_tables(name: str, steps: int, displace_every: int) -> None:
     map_ = walked(load_world(name), steps, seed=steps, displace_every=displace_every).map
     graph, B = map_.to_networkx(), map_.B()
-    assert graph.number_of_edges() == sum(len({*row} - {-1, -2}) for row in map_.B_s.keys(np.arange(len(map_.B_s))))
+    rows = enumerate(map_.B_s.keys(np.arange(len(map_.B_s))))
+    ahead = {divmod(row, len(map_.motions)): {*keys.tolist()} - {-1, -2} for row, keys in rows}
+    shut = {way for way in ahead if map_.sensed[way] == BLOCKED}
+    assert graph.number_of_edges() == sum(len(to & {way[0]} if way in shut else to) for way, to in ahead.items())
     for place, next_, key, facts in graph.edges(keys=True, data=True):
         action = map_.motions.names.index(key)
         assert facts["action"] == key

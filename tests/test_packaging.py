@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import runpy
 import subprocess
 import sys
 import tomllib
@@ -14,7 +16,7 @@ import cogmap
 from cogmap import agent, worlds
 
 ROOT = Path(__file__).resolve().parents[1]
-HOUSE = ("worlds", "model", "inference", "planning", "agent", "views", "baselines", "behaviour", "experiments")
+HOUSE = ("worlds", "model", "inference", "planning", "body", "agent", "views", "baselines", "behaviour", "experiments")
 
 
 def test_every_package_is_declared() -> None:
@@ -39,3 +41,35 @@ def test_the_package_itself_is_light() -> None:
     code = "import sys, cogmap; print(*(name for name in ('numpy', 'gymnasium', 'gtsam') if name in sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""
+
+
+def test_every_dependency_has_a_floor_that_can_be_installed_alone() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    pinned = runpy.run_path(str(ROOT / "check.py"))["floors"](project)
+    assert {"numpy==2.0", "gtsam==4.3"} <= set(pinned)
+    names = {re.split(r"[=\[>]", requirement)[0] for requirement in project["dependencies"]}
+    assert names <= {pin.partition("==")[0] for pin in pinned}
+
+
+def test_the_page_of_the_index_leads_to_the_repository() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    home, page = project["urls"]["Repository"], runpy.run_path(str(ROOT / "setup.py"))["index_page"]
+    text = page("![a](docs/x.png) [b](docs/y.md#z) [c](https://d.org) [e](#f)", home)
+    assert text == f"![a]({home}/raw/main/docs/x.png) [b]({home}/blob/main/docs/y.md#z) [c](https://d.org) [e](#f)"
+    links = re.findall(r"\]\(([^)]+)\)", page((ROOT / "README.md").read_text("utf-8"), home))
+    assert links
+    assert all(link.startswith(("https://", "#")) for link in links)
+
+
+def test_what_says_the_version_says_the_same() -> None:
+    number = version("cogmap")
+    assert f"version: {number}" in (ROOT / "CITATION.cff").read_text("utf-8")
+    for page in ("README.md", "docs/citing.md"):
+        assert f"version = {{{number}}}" in re.sub(r" +", " ", (ROOT / page).read_text("utf-8"))
+
+
+def test_pythons_are_those_that_are_tested() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    named = set(re.findall(r"Python :: (3\.\d+)", "\n".join(project["classifiers"])))
+    workflow = (ROOT / ".github" / "workflows" / "tests.yml").read_text("utf-8")
+    assert named == set(re.findall(r'"(3\.\d+)"', workflow))

@@ -221,6 +221,20 @@ def test_unknown_ways_are_tried_only_as_the_last_step() -> None:
     assert not any(row[0] in (up, down, left) for row in rows)
 
 
+def test_a_way_that_no_look_tells_of_is_worth_a_step_along_it() -> None:
+    model = grid_model(HALL, visited=HALL, at=(0, 0), look_ahead=3)
+    for place in (1, 9):  # one within look-ahead, one beyond
+        untried = np.zeros(model.blocked.shape)
+        untried[place, 1] = 0.6
+        asked = replace(model, untried=untried)
+        policies = MapGuided().make(asked)
+        told = evaluate(asked, policies)["transition_information"] - evaluate(model, policies)["transition_information"]
+        best = policies.actions[told.argmax()]
+        assert told.max() == pytest.approx(0.6 * model.discount**place, rel=0.5)
+        assert walk(asked, best[:place], 0)[-1] == place
+        assert best[place] == 1
+
+
 def test_paths_avoid_places_that_are_not_wanted() -> None:
     # two shortest ways around the corner, one through a place that is disliked
     model = grid_model([(0, 0), (0, 1), (1, 0), (1, 1)], visited=SQUARE, at=(0, 0), look_ahead=2, goal=(1, 1))

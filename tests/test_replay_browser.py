@@ -20,9 +20,12 @@ from walks import GRID
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed; pip install playwright")
-pytestmark = pytest.mark.skipif(
-    CHROMIUM is None and not os.environ.get("CI"), reason="no Chromium on the PATH; install the package chromium"
-)
+pytestmark = [
+    pytest.mark.xdist_group("browser"),  # it is started once
+    pytest.mark.skipif(
+        CHROMIUM is None and not os.environ.get("CI"), reason="no Chromium on the PATH; install the package chromium"
+    ),
+]
 
 PHONE, DESK = {"width": 360, "height": 740}, {"width": 1280, "height": 900}
 
@@ -70,7 +73,7 @@ def state(page: Any, name: str) -> str:
     return page.evaluate("name => document.documentElement.dataset[name]", name)
 
 
-def until(fine: Callable[[], bool], seconds: float = 20.0) -> None:
+def until(fine: Callable[[], bool], seconds: float = 120.0) -> None:
     """Wait (the policy of the page keeps Playwright from waiting inside it)."""
     end = time.monotonic() + seconds
     while not fine():

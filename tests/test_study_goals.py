@@ -14,12 +14,13 @@ from cogmap.experiments.studies import run_study, study_named
 from cogmap.worlds import MAZES
 
 STUDY = study_named("goals")
+pytestmark = pytest.mark.xdist_group("goals")  # what is walked once is read by many
 ALIASED = {"3x3_alias", "4x4_alias", "t_maze_alias", "donut", "tolman"}
 
 
 @cache
 def rows() -> list[Any]:
-    return STUDY.rows(2, seed=5)
+    return STUDY.rows(1, seed=5)
 
 
 def failing() -> list[Any]:
@@ -34,7 +35,7 @@ def failing() -> list[Any]:
 
 def test_every_maze_with_a_map_and_without() -> None:
     assert [(row.world, row.known, row.run.seed) for row in rows()] == [
-        (world, known, seed) for world in MAZES for known in (True, False) for seed in (5, 6)
+        (world, known, 5) for world in MAZES for known in (True, False)
     ]
     assert {row.world for row in rows() if row.aliased} == ALIASED
     for row in rows():
@@ -55,12 +56,12 @@ def test_the_same_on_two_processes() -> None:
     with workers(jobs=2) as executor:
         two = STUDY.rows(1, seed=5, executor=executor, on_done=lambda: done.append(None))
     assert len(done) == 16
-    assert two == [row for row in rows() if row.run.seed == 5]
+    assert two == rows()
 
 
 def test_settings_reach_the_agents() -> None:
     short = STUDY.rows(1, seed=5, settings=Settings(look_ahead=1))
-    assert [row.run.steps for row in short] != [row.run.steps for row in rows() if row.run.seed == 5]
+    assert [row.run.steps for row in short] != [row.run.steps for row in rows()]
 
 
 def test_failures_are_counted_and_shown() -> None:

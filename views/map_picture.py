@@ -134,6 +134,8 @@ class MapPicture:
         for (place, action), (known, likely) in self.rows.items():
             name = self.motions.names[action]
             for to, probability in likely:
+                if KNOWN[known] == "refuted" and to != place:
+                    continue
                 graph.add_edge(place, to, key=name, action=name, probability=probability, known=KNOWN[known])
         return graph
 

@@ -18,6 +18,7 @@ PAGES = {
     "CHANGELOG.md": "changelog.md",
     "CONTRIBUTING.md": "contributing.md",
     "SECURITY.md": "security.md",
+    "RELEASING.md": "releasing.md",
     "LICENSE": "licence.md",
     "benchmarks/README.md": "benchmarks.md",
     "examples/README.md": "examples/index.md",
@@ -42,7 +43,14 @@ def decision_uris() -> list[str]:
 
 def project_uris() -> list[str | dict[str, str]]:
     """The other pages made from files of the repository."""
-    return ["benchmarks.md", "contributing.md", "security.md", "changelog.md", {"Licence": "licence.md"}]
+    return [
+        "benchmarks.md",
+        "contributing.md",
+        "security.md",
+        "releasing.md",
+        "changelog.md",
+        {"Licence": "licence.md"},
+    ]
 
 
 def pages() -> dict[str, str]:

@@ -51,7 +51,10 @@ def explore_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
-    policies: opt.Policies = "map_guided",
+    view: opt.View = None,
+    tiles: opt.Tiles = None,
+    policies: opt.Policies = None,
+    preset: opt.Preset = "cogmap",
     growth: Growth = "predicted",
     engine: Engine = "numpy",
     jobs: opt.Jobs = 1,
@@ -70,10 +73,11 @@ def explore_command(
     from ...views import explore_figure
     from .walk_text import show_walk
 
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    lower: Any = {"view": view, "tiles": tiles}
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
     options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine, "pose": pose}
-    every = [lab.Parts.named(agent, growth=name, **options) for name in names]
+    every = [lab.Parts.named(agent, preset=preset, growth=name, **options) for name in names]
     sweep, chart = runs is not None or len(every) > 1, lab.chart_of(place)
     _check(agent, len(every), save, trace, out, dask=dask is not None and not sweep)
     if steps is not None and max_steps is not None:

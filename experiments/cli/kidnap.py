@@ -17,13 +17,17 @@ def kidnap_command(
     seed: opt.Seed = 0,
     look_ahead: opt.LookAhead = 6,
     max_steps: opt.MaxStepsTwice = None,
-    policies: opt.Policies = "map_guided",
+    policies: opt.Policies = None,
+    preset: opt.Preset = "cogmap",
     jobs: opt.Jobs = 1,
     dask: opt.Dask = None,
     noise: opt.Noise = None,
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    view: opt.View = None,
+    tiles: opt.Tiles = None,
+    turned: opt.Turned = False,
     json: opt.Json = None,
 ) -> None:
     """Explore a maze, then be moved to another room without a word: how soon does the agent know where it is?
@@ -32,8 +36,10 @@ def kidnap_command(
     """
     from .. import Parts, chart_of, check_kidnap, check_outputs, kidnap_many, kidnap_result, workers, write_json
 
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
-    options: Any = {"agent": Parts.named(policies=policies, look_ahead=look_ahead, pose=pose), "max_steps": max_steps}
+    lower: Any = {"view": view, "tiles": tiles, "turned": turned}
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
+    parts = Parts.named(preset=preset, policies=policies, look_ahead=look_ahead, pose=pose)
+    options: Any = {"agent": parts, "max_steps": max_steps}
     check_kidnap(place)
     check_outputs([json], inputs=[world])
     name, many = chart_of(place).name, runs or 1

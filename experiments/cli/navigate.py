@@ -28,7 +28,8 @@ def navigate_command(
     seed: opt.Seed = 0,
     look_ahead: opt.LookAhead = 6,
     max_steps: opt.MaxStepsTwice = None,
-    policies: opt.Policies = "map_guided",
+    policies: opt.Policies = None,
+    preset: opt.Preset = "cogmap",
     weight: Weight = 8.0,
     close: Close = None,
     jobs: opt.Jobs = 1,
@@ -37,6 +38,9 @@ def navigate_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    view: opt.View = None,
+    tiles: opt.Tiles = None,
+    turned: opt.Turned = False,
     json: opt.Json = None,
     trace: opt.Trace = None,
 ) -> None:
@@ -48,12 +52,13 @@ def navigate_command(
     from .tracing import Tracing, check_trace
 
     check_trace(agent, trace)
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    lower: Any = {"view": view, "tiles": tiles, "turned": turned, "goal": goal}
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
     label, name, many = lab.parse_goal(place, goal), lab.chart_of(place).name, runs or 1
     task: Any = {"weight": weight, "closed": [_room(text) for text in close or ()], "known": not unexplored}
     lab.check_goal(place, label, **task)
     lab.check_outputs([json, trace], inputs=[world])
-    parts = lab.Parts.named(agent, policies=policies, look_ahead=look_ahead, pose=pose)
+    parts = lab.Parts.named(agent, preset=preset, policies=policies, look_ahead=look_ahead, pose=pose)
     options: Any = {"goal": label, "agent": parts, "max_steps": max_steps, **task}
     with lab.workers(jobs=jobs, dask=dask) as executor, counting(f"navigating in {name}", many) as one_more:
         done = lab.navigate_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)

@@ -128,7 +128,8 @@ def _text(mean: Interval | None) -> str:
 def _by_distance(rows: Sequence[GoalRun]) -> Figure:
     title = "Steps to the goal, by the length of the shortest path (bars: mean, 95 % bootstrap)"
     figure, axes = panels(title, (1, 2), (11.0, 4.6))
-    near = [[row for row in rows if row.run.shortest in distance] for distance in DISTANCES.values()]
+    led = [(row.run.shortest, row) for row in rows if row.run.shortest is not None]
+    near = [[row for steps, row in led if steps in distance] for distance in DISTANCES.values()]
     for ax, known in zip(axes, HOW, strict=True):
         marks = ("shortest",) if known else ("shortest", "to_stand", "frontier")
         for shift, (aliased, name), colour in zip((-0.2, 0.2), ALIASED.items(), (BLUE, ORANGE), strict=True):

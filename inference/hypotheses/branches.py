@@ -13,12 +13,16 @@ from .logs import log_sum
 from .rates import OPEN
 from .records import NOWHERE, Place
 from .scheme import Sensed
+from .squares import across
 
 CROWD = 8
 """Places from which on those that a silent move may have led to are one hypothesis, with a message over them."""
 
 MOST = 4096
 """Places into which a silent move is thought of at most, the last ones first seen."""
+
+SQUARES = 0.1
+"""Rate of squares that close below which none is thought of."""
 
 FAINT = 18.0
 """Nats below which a place of a crowd is let go."""
@@ -83,6 +87,7 @@ class Walker:
     Attributes:
         floor: log weight below which branches need not be named.
         surplus: how far above zero a log-likelihood may be.
+        fails: P(the move failed | its way is open).
         unseen: places that are thought to be there but were never seen.
         put_there: log P(the agent was moved into a certain place).
         arrived: places that a branch leads to with no change of the map.
@@ -95,6 +100,7 @@ class Walker:
         self.evidence: dict[int, float] = {}
         self.floor = -inf
         self.surplus = 0.0 if sensed.others is None else inf
+        self.fails = max(self.chances.fails, sensed.fails)
         self.unseen = unseen(h)
         self.put_there = (0.0 if sensed.told else log(self.chances.moved)) - log(h.size + self.unseen)
         self.arrived: set[int] = set()
@@ -128,23 +134,25 @@ class Walker:
 
     def stay(self, before: float, astray: float, each: float) -> Alternative | None:
         """It is where it was: told to stay, blocked, failed, or put there; None if that is below the floor."""
-        action, fails = self.sensed.action, self.chances.fails
+        action, fails = self.sensed.action, self.fails
         self.arrived.add(self.h.here)
         stays = [1.0 - self.open(way) * (1.0 - fails) for way in range(self.h.scheme.count)]
         lost = each * (1.0 + sum(p for way, p in enumerate(stays) if way != action))
         given = (1.0 - astray) * (1.0 if action is None else stays[action])
         failed = 0.0 if action is None else (1.0 - astray) * self.open(action) * fails
         put_here = exp(self.put_there + self.h.weight - before)
-        total = given + lost + put_here
+        walked = (given + lost) * exp(self.sensed.of_taking(NOWHERE))
+        total = walked + put_here
         if before + log(total) <= self.floor - self.surplus:
             return None
         weight = before + log(total) + self.at(self.h.here)
-        parts = lost / total, failed / total, put_here / total
+        share = walked / (given + lost) / total
+        parts = lost * share, failed * share, put_here / total
         return Alternative(weight, self.h, NOWHERE, self.h.here, False, *parts)
 
     def _walk(self, way: int, before: float, astray: float) -> Iterator[Alternative]:
-        h, p = self.h, self.open(way) * (1.0 - self.chances.fails)
-        before += log(p)
+        h, p = self.h, self.open(way) * (1.0 - self.fails)
+        before += log(p) + self.sensed.of_taking(way)
         lead = leads(h, h.here, self.place, way)
         if lead.to != NOWHERE and max(before, self.h.weight + self.put_there) + log(2.0) > self.floor - self.surplus:
             yield self.along(way, lead, before, astray)
@@ -250,8 +258,10 @@ def leads(h: Hypothesis, number: int, place: Place, way: int) -> Lead:
 
 
 def _returns(h: Hypothesis, place: Place, way: int) -> Lead:
-    """Without poses: back to where the agent once came from, as far as actions were found to undo each other."""
-    best, sure = NOWHERE, 0.0
+    """Without poses: to where the way closes a square, as far as they do; or back to where the agent once came from,
+    as far as actions were found to undo each other."""
+    best = across(h, place, way) if h.chances.square > SQUARES else NOWHERE
+    sure = 0.0 if best == NOWHERE else h.chances.square
     if h.scheme.inverse is None:
         for source, by in sorted(place.into):
             yes, no = h.undo.get((by, way), (0.0, 0.0))
@@ -294,13 +304,15 @@ def strayed(h: Hypothesis, sensed: Sensed, crowd: Mapping[int, float], *, drop: 
 def _ahead(h: Hypothesis, number: int, sensed: Sensed) -> Iterator[tuple[int, float]]:
     """Where a step from a place may have led, if the action given was carried out; `NOWHERE` for a new place."""
     action, chances = sensed.action, h.chances
+    stayed = exp(sensed.of_taking(NOWHERE))
     if action is None:
-        yield number, 1.0
+        yield number, stayed
         return
     place = h.places[number]
-    walks = probability(way_odds(h, number, place, action)) * (1.0 - chances.fails)
+    walks = probability(way_odds(h, number, place, action)) * (1.0 - max(chances.fails, sensed.fails))
     lead = leads(h, number, place, action)
-    yield number, 1.0 - walks
+    yield number, (1.0 - walks) * stayed
+    walks *= exp(sensed.of_taking(action))
     if lead.to != NOWHERE:
         yield lead.to, walks * lead.sure
     if lead.new > 0.0:

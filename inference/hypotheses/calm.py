@@ -50,10 +50,11 @@ class _Calm:
         """The branches that are apart from the main one, where that founds a new place."""
         if not main.charted or lead is None or self.sensed.action is None:
             return []
-        before = self.stayed + log(1.0 - self.astray) + log(self.walker.open(self.sensed.action))
+        action = self.sensed.action
+        before = self.stayed + log(1.0 - self.astray) + log(self.walker.open(action)) + self.sensed.of_taking(action)
         found = [self.walker.put_elsewhere()]
         if lead.off > 0.0:
-            found.append(self.walker.off(self.sensed.action, lead, before + log(1.0 - self.chances.fails), 0.0))
+            found.append(self.walker.off(action, lead, before + log(1.0 - self.walker.fails), 0.0))
         return found
 
     def _main(self, lead: Lead | None) -> Alternative:
@@ -63,7 +64,8 @@ class _Calm:
             staying = walker.stay(self.stayed, self.astray, each)
             assert staying is not None  # its floor is below everything
             return staying
-        before = self.stayed + log(1.0 - self.astray) + log(walker.open(action) * (1.0 - self.chances.fails))
+        before = self.stayed + log(1.0 - self.astray) + log(walker.open(action) * (1.0 - walker.fails))
+        before += self.sensed.of_taking(action)
         if lead.to != NOWHERE:
             return walker.along(action, lead, before, 0.0)
         back = None if h.scheme.inverse is None else h.scheme.inverse[action]
@@ -84,7 +86,7 @@ class _Calm:
                 return False
             left = lead.new + lead.off
         else:
-            stays = given * (1.0 - self.walker.open(action) * (1.0 - self.chances.fails)) + self.astray
+            stays = given * (1.0 - self.walker.open(action) * (1.0 - self.walker.fails)) + self.astray
             if log(stays * exp(self.stayed) + exp(self.put_there)) + self._at(h.here) > floor:
                 return False
             left = 0.0 if main.charted else lead.new + lead.off

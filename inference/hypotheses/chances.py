@@ -16,6 +16,7 @@ from .rates import (
     OPEN,
     RELINKED,
     SIGHT_MISREAD,
+    SQUARE,
     UNDONE,
     WAY_MISREAD,
     RateCounts,
@@ -40,7 +41,7 @@ class Chances:
             odds that one reading is worth; a sensor each.
         labels: number of labels of each sensor, one never met included.
         doors: what so many readings of the other side of a door add, as far as it was worked out.
-        fails, astray, moved, elsewhere, undone, new, relinked: as the rates are called.
+        fails, astray, moved, elsewhere, undone, new, relinked, square: as the rates are called.
     """
 
     __slots__ = (
@@ -60,6 +61,7 @@ class Chances:
         "relinked",
         "right",
         "sight_unit",
+        "square",
         "undone",
         "unit",
         "wrong",
@@ -79,7 +81,7 @@ class Chances:
         self.most = self.limit / self.unit
         self.fails, self.astray, self.moved = mean(FAILS), mean(ASTRAY), mean(MOVED)
         self.elsewhere, self.undone, self.new = mean(ELSEWHERE), mean(UNDONE), mean(NEW)
-        self.relinked = mean(RELINKED)
+        self.relinked, self.square = mean(RELINKED), mean(SQUARE)
         error = min(max(mean(SIGHT_MISREAD), SUREST), MOST_MISREAD)
         self.doors: dict[float, float] = {}
         self.labels = tuple(labels)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
+from contextlib import contextmanager
 from math import log
 
 from .branches import Alternative
 from .chances import Chances
 from .evidence import label_probability, odds_beyond, probability, sight_probability
 from .hypothesis import Hypothesis
-from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, UNDONE
+from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
 from .scheme import Reading, Sensed
+from .squares import across, around, tally
 
 
 def begin(h: Hypothesis, sensed: Sensed, time: int) -> None:
@@ -64,8 +66,9 @@ def _bump(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
     way, chances, place = sensed.action, h.chances, h.places[h.here]
     if way is None:
         return
-    given, lost = 1.0 - chances.astray, chances.astray * 0.5
-    worth = log((given * chances.fails + lost) / (given + lost)) / chances.unit
+    astray = 0.0 if sensed.certain else chances.astray
+    given, lost = 1.0 - astray, astray * 0.5
+    worth = log((given * max(chances.fails, sensed.fails) + lost) / (given + lost)) / chances.unit
     known = place.ways[way]
     net = max(known.net + worth, -chances.most)
     h.put(h.here, with_way(place, way, Way(net, known.open, known.blocked, known.walks, known.to)))
@@ -78,6 +81,16 @@ def with_way(place: Place, index: int, way: Way) -> Place:
 
 
 def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
+    place = h.places[here]
+    way = place.ways[index]
+    if h.scheme.displacements is None and way.to != to:
+        with _squares(h, (here, to)):
+            _lead(h, here, index, to, branch)
+    else:
+        _lead(h, here, index, to, branch)
+
+
+def _lead(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
     place = h.places[here]
     way = place.ways[index]
     if way.walks:
@@ -98,6 +111,17 @@ def _walk(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         h.put(here, shared(h, here, h.places[here]))
     else:
         h.put(here, shared(h, here, with_way(h.places[here], index, walked)))
+
+
+@contextmanager
+def _squares(h: Hypothesis, numbers: Sequence[int]) -> Generator[None]:
+    """Count the squares that close, or do not, by what is done within to the ways of some places."""
+    centres = around(h, numbers)
+    before = tally(h, centres)
+    yield
+    after = tally(h, centres)
+    for counts, was, now in zip((h.counts.yes, h.counts.no), before, after, strict=True):
+        counts[SQUARE] = max(counts[SQUARE] + now - was, 0.0)
 
 
 def _arrive(h: Hypothesis, here: int, index: int, to: int) -> None:
@@ -138,7 +162,7 @@ def _count_link(h: Hypothesis, place: Place, index: int, to: int, branch: Altern
         h.counts.no[MEETING] += not meets
     if h.scheme.displacements is None:
         h.counts.yes[NEW] += new
-        h.counts.no[NEW] += not new
+        h.counts.no[NEW] += not new and across(h, place, index) != to
         return
     off = not branch.charted if new else h.beside(place, index) != to
     h.counts.yes[ELSEWHERE] += off

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from .extending import shared
 from .hypothesis import Hypothesis
-from .rates import ASTRAY, ELSEWHERE, MEETING, MOVED, NEW, UNDONE
+from .rates import ASTRAY, ELSEWHERE, MEETING, MOVED, NEW, SQUARE, UNDONE
 from .records import NOWHERE, Place, Way
 from .uniting import ContradictionError, Union
 from .weighing import Links, scored
@@ -85,7 +85,9 @@ def _count(united: Union, h: Hypothesis, more: Links) -> None:
         counts.no[MEETING] = max(counts.no[MEETING] + more.ways - more.meeting, 0.0)
     if h.scheme.displacements is None:
         counts.yes[NEW] = max(counts.yes[NEW] - fewer, 0.0)
-        counts.no[NEW] = float(max(h.links - h.size + 1, 0))
+        counts.yes[SQUARE] = max(counts.yes[SQUARE] + more.square, 0.0)
+        counts.no[SQUARE] = max(counts.no[SQUARE] + more.open_square, 0.0)
+        counts.no[NEW] = max(h.links - h.size + 1 - counts.yes[SQUARE], 0.0)
         return
     off = more.off + (united.charts.periods is not None)
     counts.yes[ELSEWHERE] = max(counts.yes[ELSEWHERE] + off, 0.0)

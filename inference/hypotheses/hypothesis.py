@@ -11,12 +11,16 @@ from .layered import Layered
 from .rates import BESIDE, OPEN, SIGHT_MISREAD, WAY_MISREAD, RateCounts
 from .records import NOWHERE, Place, Position, Share
 from .scheme import WayScheme
+from .squares import across
 
 SHARES = (
     (OPEN, True), (OPEN, False), (WAY_MISREAD, True), (WAY_MISREAD, False), (SIGHT_MISREAD, True),
     (SIGHT_MISREAD, False), (BESIDE, True), (BESIDE, False),
 )  # fmt: skip
 """Which rate each part of a share counts for, and whether as true."""
+
+SQUARES = 0.6
+"""Rate of squares that close from which on a way is taken to lead where it closes one."""
 
 OWN = 2.0
 """Looks at one way that count as much as all looks at any way."""
@@ -135,9 +139,13 @@ class Hypothesis:
         return NOWHERE if found is None else found
 
     def neighbour(self, place: Place, way: int) -> int:
-        """The place beyond a way: where it was found to lead, else where poses say."""
+        """The place beyond a way: where it was found to lead, else where poses say, or else squares."""
         to = place.ways[way].to
-        return to if to != NOWHERE else self.beside(place, way)
+        if to != NOWHERE:
+            return to
+        if self.scheme.displacements is None:
+            return across(self, place, way) if self.chances.square > SQUARES else NOWHERE
+        return self.beside(place, way)
 
     # -- writing -------------------------------------------------------------------------------------------
 

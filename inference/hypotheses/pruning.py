@@ -6,7 +6,9 @@ from collections.abc import Sequence
 
 from .hypothesis import Hypothesis
 from .logs import log_add, log_sum
-from .records import NOWHERE, Place
+from .records import NOWHERE, Place, Position
+
+SMALL = 200  # places; to look through all of a larger map costs more than it tells
 
 
 def alike(one: Hypothesis, other: Hypothesis) -> bool:
@@ -54,7 +56,7 @@ def merged(hypotheses: Sequence[Hypothesis], proposed: Sequence[Hypothesis] = ()
     """
     if len(hypotheses) + len(proposed) == 1:
         return [*hypotheses, *proposed]
-    kept: dict[int, list[Hypothesis]] = {}
+    kept: dict[object, list[Hypothesis]] = {}
     for h in sorted(hypotheses, key=lambda h: -h.weight):
         same = _kept(kept, h)
         if same is not h:
@@ -65,13 +67,22 @@ def merged(hypotheses: Sequence[Hypothesis], proposed: Sequence[Hypothesis] = ()
     return sorted((h for group in kept.values() for h in group), key=lambda h: -h.weight)
 
 
-def _kept(kept: dict[int, list[Hypothesis]], h: Hypothesis) -> Hypothesis:
+def _kept(kept: dict[object, list[Hypothesis]], h: Hypothesis) -> Hypothesis:
     """The one that says the same, or this one, which is kept from now on."""
-    group = kept.setdefault(h.digest, [])
+    group = kept.setdefault((h.digest, _corner(h)), [])
     same = next((other for other in group if alike(other, h)), h)
     if same is h:
         group.append(h)
     return same
+
+
+def _corner(h: Hypothesis) -> Position | None:
+    """Where the first corner of the chart lies as seen from the agent, which tells at once most that are not alike."""
+    here = h.places[h.here]
+    if not here.position or h.periods.get(here.frame) or h.size > SMALL:
+        return None
+    first = min(position for frame, position in h.at if frame == here.frame)
+    return tuple(x - y for x, y in zip(first, here.position, strict=True))
 
 
 def normalised(hypotheses: Sequence[Hypothesis], *, drop: float, most: int) -> tuple[list[Hypothesis], float]:

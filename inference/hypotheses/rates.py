@@ -60,6 +60,9 @@ def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
 CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 0.5, 2.0))
 """It hardly ever happens, or else often enough, or else very often."""
 
+LEFT_ALONE = ((0.98, 0.5, 500.0), (0.015, 0.5, 20.0), (0.005, 0.5, 2.0))
+"""The same of what hardly any world does, and some do at every step."""
+
 READ = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 6.0, 14.0))
 """The same of a reading, which is right more often than not, or any map whatever would do, misread over and over."""
 
@@ -69,7 +72,7 @@ RATE_PRIORS = (
     _beta("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
     RatePrior("fails", "a move through an open way fails", CALM_OR_NOT),
     RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),
-    _beta("moved", 0.5, 500.0, "the agent is moved without a word"),
+    RatePrior("moved", "the agent is moved without a word", LEFT_ALONE),
     _beta("elsewhere", 0.25, 4.0, "a way leads where the pose does not say"),
     _beta("undone", 20.0, 0.5, "the reverse of an action leads back"),
     _beta("changed", 0.5, 500.0, "a way opens or closes between two looks"),
@@ -79,11 +82,12 @@ RATE_PRIORS = (
         "relinked", 0.5, 24.5, "a way that was walked once leads elsewhere after all; by walks squared less for more"
     ),
     _beta("meeting", 0.5, 9.5, "one action leads from two places into one (where it is not known what undoes what)"),
+    _beta("square", 0.5, 0.5, "two actions lead to the same place in either order (without poses)"),
 )
 """Every rate, in the order of `RateCounts`."""
 
 OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE = range(7)
-UNDONE, CHANGED, BESIDE, NEW, RELINKED, MEETING = range(7, len(RATE_PRIORS))
+UNDONE, CHANGED, BESIDE, NEW, RELINKED, MEETING, SQUARE = range(7, len(RATE_PRIORS))
 
 CONCENTRATIONS = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
 """Concentrations of the Chinese restaurant process that are weighed against each other, evenly before any place."""

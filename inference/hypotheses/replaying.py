@@ -142,18 +142,18 @@ def _predicted(h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Co
     """Where the agent is before the sensed, with silent moves to every place evenly."""
     chances, action = h.chances, sensed.action
     ahead: dict[int, float] = {k: chances.moved / h.size for k in h.places if k not in skip}
-    each = chances.astray / h.scheme.count
+    each, fails = chances.astray / h.scheme.count, max(chances.fails, sensed.fails)
     for number, p in belief.items():
         p *= 1.0 - chances.moved
         place, stays = h.places[number], each if action is not None else 1.0 - chances.astray
         for way in range(h.scheme.count):
             q = p * (1.0 - chances.astray if way == action else each)
-            opened = probability(way_odds(h, number, place, way)) * (1.0 - chances.fails)
+            opened = probability(way_odds(h, number, place, way)) * (1.0 - fails)
             lead = leads(h, number, place, way)
             stays += (q / p) * (1.0 - opened)
             if lead.to != NOWHERE and lead.to not in skip:
-                ahead[lead.to] = ahead.get(lead.to, 0.0) + q * opened * lead.sure
-        ahead[number] = ahead.get(number, 0.0) + p * stays
+                ahead[lead.to] = ahead.get(lead.to, 0.0) + q * opened * lead.sure * exp(sensed.of_taking(way))
+        ahead[number] = ahead.get(number, 0.0) + p * stays * exp(sensed.of_taking(NOWHERE))
     return ahead
 
 

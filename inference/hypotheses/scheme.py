@@ -58,6 +58,9 @@ class Sensed:
         action: the way that was to be taken; None for staying where it is.
         certain: the action is known to have been carried out (`taken`), so none went astray.
         told: the agent is told that it was moved.
+        went: log-likelihood of what was measured or said of the move: of having taken each way, and last of none; the
+            largest is 0. None where nothing was.
+        fails: the move failed at least so probably, if its way was open, as the body has it.
         others: log-likelihood of what further sensors read, neither labels nor ways, at the place of a number; at a
             place never seen for None.
     """
@@ -68,6 +71,12 @@ class Sensed:
     certain: bool = False
     told: bool = False
     others: Callable[[int | None], float] | None = None
+    went: tuple[float, ...] | None = None
+    fails: float = 0.0
+
+    def of_taking(self, way: int) -> float:
+        """Log-likelihood of what was measured or said of the move, if this way was taken; `NOWHERE` for none."""
+        return 0.0 if self.went is None else self.went[way]
 
     def check(self, scheme: WayScheme) -> None:
         """Refuse what such ways and sensors cannot bring.
@@ -83,6 +92,12 @@ class Sensed:
         for way in self.ways:
             if way is not None and not 0.0 <= way <= 1.0:
                 raise CogmapError(f"sensed: P(open) is {way}; give a number from 0 to 1, or None")
+        if self.went is not None and not (
+            len(self.went) == scheme.count + 1 and max(self.went) == 0.0 and all(map(isfinite, self.went))
+        ):
+            raise CogmapError(f"sensed: went is {self.went}; give {scheme.count + 1} finite numbers, the largest 0")
+        if not 0.0 <= self.fails <= 1.0:
+            raise CogmapError(f"sensed: fails is {self.fails}; give a number from 0 to 1")
         for sight in self.sights:
             if not (sight is None or isinstance(sight, (int, Mapping))):  # pyright: ignore[reportUnnecessaryIsInstance]
                 raise CogmapError(f"sensed: sight is {sight!r}; give the number of a label, likelihoods, or None")

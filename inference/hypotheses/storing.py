@@ -27,6 +27,9 @@ Arrays = dict[str, NDArray[Any]]
 
 VERSION = 1
 
+FIRST_RATES = 13
+"""Rates of a state that does not say how many it has."""
+
 
 @dataclass(slots=True)
 class Parts:
@@ -81,6 +84,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         "numbers": list(parts.numbers),
         "change": [parts.change.kind, list(parts.change.places)],
         "length": parts.history.length,
+        "rates": len(RATE_PRIORS),
     }
     arrays = out.rows()
     return {**header, "check": _checksum(header, arrays)}, arrays
@@ -149,10 +153,12 @@ def _number(number: int | None) -> int:
 
 
 def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts:
-    entries = header["hypotheses"]
+    entries, rates = header["hypotheses"], int(header.get("rates", FIRST_RATES))
+    if not FIRST_RATES <= rates <= len(RATE_PRIORS):
+        raise ValueError("its rates are none of these")
     source.records(scheme)
     shared = _shared(_read_maps(scheme, source)) if entries else (Shared(), Shared(), Shared())
-    hypotheses = [_read_hypothesis(scheme, entry, shared, source) for entry in entries]
+    hypotheses = [_read_hypothesis(scheme, entry, shared, source, rates=rates) for entry in entries]
     alive = len(hypotheses) - int(header["past"])
     _finish(hypotheses, alive)
     past: list[Past] = []
@@ -223,18 +229,20 @@ def _shared(maps: Maps) -> Bases:
     return bases
 
 
-def _read_hypothesis(scheme: WayScheme, entry: Mapping[str, Any], shared: Bases, source: Reader) -> Hypothesis:
+def _read_hypothesis(
+    scheme: WayScheme, entry: Mapping[str, Any], shared: Bases, source: Reader, *, rates: int
+) -> Hypothesis:
     h = Hypothesis(scheme)
     places, at, shown = _read_maps(scheme, source)
     h.places, h.at, h.shown = Layered(shared[0], places), Layered(shared[1], at), Layered(shared[2], shown)
     h.here, h.size, h.links, apart, *h.kinds = source.numbers(4 + scheme.sensors)
     h.apart = bool(apart)
-    rates = len(RATE_PRIORS)
     h.weight, *counts = source.reals(1 + 2 * rates)
     looks = source.reals(2 * scheme.count)
     h.looks = list(zip(looks[::2], looks[1::2], strict=True))
     h.crowd = source.counts() or None
-    h.counts = RateCounts(counts[:rates], counts[rates:])
+    more = [0.0] * (len(RATE_PRIORS) - rates)
+    h.counts = RateCounts(counts[:rates] + more, counts[rates:] + more)
     h.periods = {int(frame): tuple(tuple(int(x) for x in row) for row in rows) for frame, rows in entry["periods"]}
     for _ in range(entry["undo"]):
         one, other = source.numbers(2)

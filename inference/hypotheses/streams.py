@@ -61,8 +61,12 @@ class Writer:
     def sensed(self, item: tuple[int, Sensed]) -> None:
         """One percept, and its time."""
         time, sensed = item
-        self.whole += [time, -1 if sensed.action is None else sensed.action, sensed.certain, sensed.told]
+        said = sensed.went is not None or sensed.fails > 0.0
+        self.whole += [time, -1 if sensed.action is None else sensed.action, sensed.certain + 2 * said, sensed.told]
         self.real += [-1.0 if way is None else way for way in sensed.ways]
+        if said:
+            self.many(sensed.went or (), self.real.append)
+            self.real.append(sensed.fails)
         for reading in sensed.sights:
             if isinstance(reading, int):
                 self.whole += [-2, reading]
@@ -141,8 +145,11 @@ class Reader:
         """One percept, and its time."""
         time, action, certain, told = self.numbers(4)
         ways = tuple(None if way < 0.0 else way for way in self.reals(scheme.count))
+        went = tuple(self.many(lambda: self.reals(1)[0])) if certain & 2 else ()
+        fails = self.reals(1)[0] if certain & 2 else 0.0
         sights = tuple(self._reading() for _ in range(scheme.sensors))
-        return time, Sensed(sights, ways, None if action < 0 else action, bool(certain), bool(told))
+        taken = None if action < 0 else action
+        return time, Sensed(sights, ways, taken, bool(certain & 1), bool(told), went=went or None, fails=fails)
 
     def _reading(self) -> Reading:
         kind = self.numbers(1)[0]

@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from .chances import Chances
 from .hypothesis import Hypothesis
-from .rates import ELSEWHERE, MEETING, NEW, RATE_PRIORS, UNDONE, crp_evidence
+from .rates import ELSEWHERE, MEETING, NEW, RATE_PRIORS, SQUARE, UNDONE, crp_evidence
 from .records import NOWHERE
+from .squares import around, tally
 from .uniting import Union
 
 FACTOR = 0.6
@@ -17,19 +18,29 @@ FACTOR = 0.6
 
 
 class Links(NamedTuple):
-    """Ways between places: how many, how many of them off the chart, that do not lead back, that meet."""
+    """Ways between places: how many, how many of them off the chart, that do not lead back, that meet.
+
+    And, without poses, how many squares close, and do not.
+    """
 
     ways: int
     off: int
     crooked: int
     meeting: int
+    square: float = 0.0
+    open_square: float = 0.0
+
+    def less(self, other: Links) -> Links:
+        """The difference."""
+        a, b = self, other
+        counts = a.ways - b.ways, a.off - b.off, a.crooked - b.crooked, a.meeting - b.meeting
+        return Links(*counts, a.square - b.square, a.open_square - b.open_square)
 
 
 def scored(united: Union) -> tuple[float, Links]:
     """log P(united) - log P(apart), readings and structure; and the difference in links."""
     h = united.h
-    before, after = _links(united, apart=True), _links(united, apart=False)
-    more = Links(*(b - a for a, b in zip(before, after, strict=True)))
+    more = _links(united, apart=False).less(_links(united, apart=True))
     gain = united.sights - united.cost + _seating_gain(united)
     gain += _doors(united, apart=False) - _doors(united, apart=True)
     gain += _structure_gain(united, more)
@@ -48,9 +59,11 @@ def _structure_gain(united: Union, more: Links) -> float:
         off = more.off + (united.charts.periods is not None)
         gain = rate_gain(h, ELSEWHERE, off, more.ways - more.off)
         return gain - off * log(h.size - fewer + 1.0)
-    closed = max(h.links - h.size + 1, 0)
-    closed_after = max(h.links + more.ways - h.size + fewer + 1, 0)
+    squares = max(h.counts.yes[SQUARE], 0.0)
+    closed = max(h.links - h.size + 1 - squares, 0.0)
+    closed_after = max(h.links + more.ways - h.size + fewer + 1 - squares - more.square, 0.0)
     gain = rate_gain(h, NEW, -fewer, closed_after - max(h.counts.no[NEW], 0.0))
+    gain += rate_gain(h, SQUARE, more.square, more.open_square)
     return gain - closed_after * log(max(FACTOR * (h.size - fewer), 1.0)) + closed * log(max(FACTOR * h.size, 1.0))
 
 
@@ -115,7 +128,22 @@ def _links(united: Union, *, apart: bool) -> Links:
         count += 1
         crooked += back != NOWHERE and not mutual
         off += _off(united, number, index, to, apart=apart)
-    return Links(count, off, crooked, meeting if inverse is None else 0)
+    squares = _squares(united, apart=apart) if h.scheme.displacements is None else (0.0, 0.0)
+    return Links(count, off, crooked, meeting if inverse is None else 0, *squares)
+
+
+def _squares(united: Union, *, apart: bool) -> tuple[float, float]:
+    """Squares around the places concerned that close, and that do not, before and after."""
+    h, find = united.h, united.find
+    near = around(h, united.members())
+    if apart:
+        return tally(h, near)
+
+    def to(number: int, way: int) -> int:
+        there = united.view(number).ways[way].to
+        return there if there == NOWHERE else find(there)
+
+    return tally(h, {find(number) for number in near}, to)
 
 
 def _off(united: Union, number: int, index: int, to: int, *, apart: bool) -> bool:

@@ -19,6 +19,9 @@ from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table
 ELSEWHERE = -1
 """Successor that is no place of the map yet."""
 
+UNSURE = 0.1
+"""P(open) and P(blocked) from which on it is open whether a way is open."""
+
 UNKNOWN, OPEN, BLOCKED = 0, 1, 2
 """What was last sensed of a door."""
 
@@ -141,6 +144,26 @@ class Transition(ModelFactor):
         shown = visited[:, None] & (keys == ELSEWHERE).any(axis=2)
         return (self.context.information(alpha, steps) * ~shown[..., None]).sum(axis=1)
 
+    def looks(self, place: int, action: int, steps: int) -> Floats:
+        """`[N + 1]` the part of `information` that comes of one way."""
+        _, alpha, _ = self.table.concentration(np.array([self.row(place, action)]))
+        return self.context.information(alpha, steps)[0]
+
+    def untried(self, places: Ints) -> Floats:
+        """`[n, K]` nats that the first step along each way teaches, if no visit has told whether it is open.
+
+        That is H[open], the entropy of whether it is, for ways of places where the agent was that it never walked, but
+        for those beyond which no place is imagined.
+        """
+        p, visited = self.blocked(places), self.context.visits.visited.values[places]
+        unsure = (p > UNSURE) & (p < 1.0 - UNSURE) & ~self.walked.values[places] & visited[:, None]
+        if not unsure.any():
+            return np.zeros(p.shape)
+        keys = self.table.keys(self.rows(places)).reshape(*p.shape, -1)
+        unsure &= ((keys >= 0) & (keys != places[:, None, None])).any(axis=2)
+        q = np.where(unsure, p, 0.5)
+        return np.where(unsure, -q * np.log(q) - (1.0 - q) * np.log1p(-q), 0.0)
+
     def tables(self, support: Support) -> Iterable[Table]:
         """B_s[a](s_t, s_t-1), times the coupling; any visited place where the agent was moved."""
         if support.ahead is None or support.percept.action is None:
@@ -174,7 +197,7 @@ class Transition(ModelFactor):
         if action == self.motions.stay:
             return
         if previous == next_:
-            self.shut(previous, action, weight, changed=True)
+            self.shut(previous, action, weight, changed=True, seen=weight > 0.5)
             return
         forward, reverse = self.rates.possible
         self.add(next_, previous, action, weight * forward)
@@ -183,11 +206,12 @@ class Transition(ModelFactor):
         if weight > 0.5:
             self.walked.set((previous, action), True)
 
-    def shut(self, place: int, action: int, weight: float, *, changed: bool) -> None:
-        """The way was found blocked; if that is news, so is its other side."""
+    def shut(self, place: int, action: int, weight: float, *, changed: bool, seen: bool = True) -> None:
+        """The way was found blocked; if that is news, so is its other side, and if it was seen, that is noted."""
         forward, reverse = self.rates.impossible
         self.raise_to(place, place, action, -weight * forward)
-        self.sensed.set((place, action), BLOCKED)
+        if seen:
+            self.sensed.set((place, action), BLOCKED)
         beyond = self.beyond(place, action)
         if beyond is None:
             return

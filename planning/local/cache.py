@@ -19,8 +19,8 @@ from .where import Where
 CUTS = 64
 """Cuts of the map that are kept, at most."""
 
-Key = tuple[bytes, bytes, tuple[bool, ...]]
-"""Of a cut: the places that the agent may be in, those that are in it, and what is sensed of the ways."""
+Key = tuple[bytes, bytes, tuple[bool, ...], tuple[bool, ...]]
+"""Of a cut: the places that the agent may be in, those that are in it, what is sensed of the ways, and of which not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +33,7 @@ class WayRows:
         likely: `[n, K]` where it most probably leads to besides the place itself; see `likeliest`.
         blocked: `[n, K]` P(staying | s, a).
         ways: `[n, N + 1]` nats that visits teach of B_s by their ways.
+        untried: `[n, K]` nats that the first step along each way teaches; see `Transition.untried`.
     """
 
     successors: Ints
@@ -40,6 +41,7 @@ class WayRows:
     likely: Ints
     blocked: Floats
     ways: Floats
+    untried: Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +71,7 @@ class Cut:
         successor: `[R, K]` the place each action most probably leads to, or -1.
         blocked: `[R, K]` P(blocked | s, a).
         ways: `[R, N + 1]` nats that visits teach of B_s.
+        untried: `[R, K]` nats that the first step along each way teaches; None where all are zero.
         kept: what others worked out of these alone, to be found again.
     """
 
@@ -79,6 +82,7 @@ class Cut:
     successor: Ints
     blocked: Floats
     ways: Floats
+    untried: Floats | None
     kept: Kept
 
 
@@ -93,6 +97,7 @@ class LocalCache:
         links: how often it has changed where a way most probably leads.
         found: what a search of the map found last, for the next one to go on from.
         where: where its places are.
+        untried: the most that a step along a way teaches, by place, where that is anything.
     """
 
     __slots__ = (
@@ -106,6 +111,7 @@ class LocalCache:
         "_ways",
         "found",
         "links",
+        "untried",
         "visits",
         "where",
     )
@@ -122,6 +128,7 @@ class LocalCache:
         self.links = 0
         self.found: Any = None
         self.where = Where(map_)
+        self.untried: dict[int, float] = {}
 
     def check(self, map_: MapView, look_ahead: int) -> None:
         """Raise `CogmapError` unless it is of this map, and tells of enough visits for this look-ahead."""
@@ -134,6 +141,7 @@ class LocalCache:
         """Forget what has changed since the last call."""
         map_, read = self._map, self._read
         ways, _ = map_.changed_places(read, map_.B_s, map_.visits)
+        self._note_untried(ways)
         tables = [sensor.table for sensor in map_.sights_sensed]
         sights, self._read = map_.changed_places(read, map_.A_p, *tables)
         self._forget_ways(ways)
@@ -142,6 +150,17 @@ class LocalCache:
             sights, self._unseen = None, None
         self._sights.forget(sights)
         self._outcomes = outcomes
+
+    def _note_untried(self, changed: Collection[int] | None) -> None:
+        """Which ways are worth a try, of the places that have changed, or of all."""
+        map_, many = self._map, len(self._map.places)
+        if changed is None:
+            self.untried, changed = {}, range(many)
+        for place in changed:
+            self.untried.pop(place, None)
+        places = np.array([place for place in changed if place < many and map_.visited[place]], dtype=np.int64)
+        most = map_.transitions.untried(places).max(axis=1, initial=0.0)
+        self.untried |= {place: nats for place, nats in zip(places.tolist(), most.tolist(), strict=True) if nats}
 
     def _forget_ways(self, places: Collection[int] | None) -> None:
         """What is known of the ways of these places, or of all."""
@@ -194,6 +213,10 @@ class LocalCache:
         """`[n, K]` where each action most probably leads to; -1 where that is nowhere else, or not known."""
         return self._ways.column(2, places)
 
+    def looks(self, place: int, action: int) -> Floats:
+        """`[N + 1]` what visits teach of one way."""
+        return self._map.transitions.looks(place, action, self.visits)
+
     def unseen(self) -> Floats:
         """`[N + 1]` what visits teach of the sights in a place never imagined."""
         if self._unseen is None:
@@ -207,8 +230,8 @@ class LocalCache:
         keys, alpha = keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
         p = alpha / alpha.sum(axis=2, keepdims=True)
         likely, blocked = likeliest(keys, p, places, ELSEWHERE)
-        of_ways = map_.transitions.information(places, self.visits)
-        return keys, p, likely, blocked, of_ways
+        of_ways, untried = map_.transitions.information(places, self.visits), map_.transitions.untried(places)
+        return keys, p, likely, blocked, of_ways, untried
 
     def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         map_, steps = self._map, self.visits

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -21,6 +21,8 @@ from .view import MapView
 
 SURE = 0.5
 """Belief in one place from which on an agent explores by options from there."""
+HOPE = 0.4
+"""P(a way that is worth a try leads beyond) from which on plans count on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +36,7 @@ class Surroundings:
         near: all places within look-ahead of these, however improbable the way, ascending.
         preferences: what is hoped for.
         open: for each action, whether its way is sensed open now.
+        unseen: for each action, whether nothing senses its way.
         look_ahead: steps that policies look ahead.
         structure: hypotheses about the map, side by side; None where there is but one.
     """
@@ -46,10 +49,17 @@ class Surroundings:
     open: Sequence[bool]
     look_ahead: int
     structure: Structure | None = None
+    unseen: Sequence[bool] = ()
+
+    @property
+    def tries(self) -> Mapping[int, float]:
+        """The most that a step along a way teaches, by place, where that is anything."""
+        return self.cache.untried if any(self.unseen) else {}
 
     def sensed(self) -> Ints:
         """`[n, K]` where each action most probably leads to from the starts, as sensed now; see `LocalCache.likely`."""
         rows = self.cache.ways(self.starts)
+        _unseen(self.cache, rows, self.starts, self.unseen)
         _sense(rows, self.starts, np.arange(len(self.starts)), self.open)
         return rows.likely[:-1]
 
@@ -74,12 +84,14 @@ def local_model(
     beyond: Callable[[Surroundings], Ints] = nothing_beyond,
     structure: MapHypotheses | None = None,
     explorer: Callable[[Surroundings], Frontier | None] | None = None,
+    unseen: Sequence[bool] = (),
 ) -> LocalModel:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
     Everything within `look_ahead` steps is in it, and what `beyond` asks for; or, where an `explorer` answers with
     options, the ways to them, undiscounted. Of a belief over more than `starts` places the likeliest remain (see
-    `LocalModel.dropped`). What a `cache` of the map has kept from the last step is not worked out again.
+    `LocalModel.dropped`). What a `cache` of the map has kept from the last step is not worked out again. Of the ways of
+    actions that are `unseen`, no sensor tells: a step along one does.
 
     Raises:
         CogmapError: the cache is of another map or tells of fewer visits than `look_ahead`, `starts` is below one, or
@@ -93,7 +105,7 @@ def local_model(
     preferences = preferences or Preferences()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
     apart, frontier = Structure.of(structure), None
-    around = Surroundings(map_, cache, places, places[:0], preferences, open_, look_ahead, apart)
+    around = Surroundings(map_, cache, places, places[:0], preferences, open_, look_ahead, apart, unseen)
     if explorer is not None and belief.max() >= SURE:
         frontier = explorer(replace(around, starts=places[[belief.argmax()]]))
     if frontier is not None:
@@ -102,8 +114,8 @@ def local_model(
         near = cache.within(places, look_ahead)
         far = beyond(replace(around, near=near))
     within = np.union1d(near, far) if len(far) else near
-    key = places.tobytes(), within.tobytes(), tuple(open_)
-    cut = cache.cut(key, partial(_cut, map_, cache, places, within, open_))
+    key = places.tobytes(), within.tobytes(), tuple(open_), tuple(unseen)
+    cut = cache.cut(key, partial(_cut, map_, cache, places, within, open_, unseen))
     q = np.zeros(len(cut.places))
     q[cut.at] = belief
     A, multiplicity, log_C = _sights(map_, within, preferences)
@@ -137,20 +149,42 @@ def local_model(
         structure=apart,
         frontier=frontier,
         kept=cut.kept,
+        untried=cut.untried,
     )
 
 
-def _cut(map_: MapView, cache: LocalCache, places: Ints, within: Ints, open_: Sequence[bool]) -> Cut:
+def _cut(
+    map_: MapView, cache: LocalCache, places: Ints, within: Ints, open_: Sequence[bool], unseen: Sequence[bool]
+) -> Cut:
     """What `within` has of ways, those of `places` as they are sensed."""
     at, rows = within.searchsorted(places), cache.ways(within)
     entered = np.zeros(len(within) + 1, dtype=np.bool_)
     entered[:-1] = map_.visited[within]
+    _unseen(cache, rows, within, unseen)
     _sense(rows, within, at, open_)
     rows.blocked[:, map_.motions.stay] = 0.0
     if not entered[:-1].all():
         leave_out_dormant(map_, within, rows, entered[:-1])
     B, successor = _transitions(within, rows, map_.motions.stay)
-    return Cut(np.append(within, ELSEWHERE), at, entered, B, successor, rows.blocked, rows.ways, Kept())
+    untried = rows.untried if rows.untried.any() else None
+    return Cut(np.append(within, ELSEWHERE), at, entered, B, successor, rows.blocked, rows.ways, untried, Kept())
+
+
+def _unseen(cache: LocalCache, rows: WayRows, places: Ints, unseen: Sequence[bool]) -> None:
+    """Leave what steps teach to the ways of which no sensor tells; there no look at a place teaches anything.
+
+    Plans count on such a way though it is as likely shut.
+    """
+    if not any(unseen):
+        rows.untried[:] = 0.0
+        return
+    rows.untried[:, ~np.array(unseen, dtype=np.bool_)] = 0.0
+    for row, action in np.argwhere(rows.untried > 0.0).tolist():
+        rows.ways[row] -= cache.looks(int(places[row]), action)
+        keys, p = rows.successors[row, action], rows.probability[row, action]
+        beyond = np.where((keys >= 0) & (keys != places[row]), p, 0.0)
+        if beyond.max() >= HOPE:
+            rows.likely[row, action] = keys[beyond.argmax()]
 
 
 def _likeliest_starts(places: Ints, belief: Floats, most: int) -> tuple[Ints, Floats, float]:
@@ -184,16 +218,23 @@ def _sights(map_: MapView, places: Ints, preferences: Preferences) -> tuple[Floa
 
 
 def _sense(rows: WayRows, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:
-    """Let the ways of `sensing` be as they are sensed now: shut, or not the place itself beyond."""
+    """Let the ways of `sensing` be as they are sensed now: shut, or not the place itself beyond.
+
+    Ways that nobody has looked at stay as the map has them.
+    """
     here, shut = places[sensing], ~np.array(open_, dtype=np.bool_)
-    keys, p = rows.successors[sensing], rows.probability[sensing]
+    keys, p, untried = rows.successors[sensing], rows.probability[sensing], rows.untried[sensing] > 0.0
+    before = (keys.copy(), p) if untried.any() else None
     own = keys == here[:, None, None]
     beyond = (p * ~own).sum(axis=2, keepdims=True)
     p = np.where(own & (beyond > 0.0), 0.0, p / np.where(beyond > 0.0, beyond, 1.0))
     keys[:, shut], p[:, shut] = EMPTY, 0.0
     keys[:, shut, 0], p[:, shut, 0] = here[:, None], 1.0
+    if before is not None:
+        keys, p = (np.where(untried[:, :, None], old, new) for old, new in zip(before, (keys, p), strict=True))
     rows.successors[sensing], rows.probability[sensing] = keys, p
-    rows.likely[sensing], rows.blocked[sensing] = likeliest(keys, p, here, ELSEWHERE)
+    likely, rows.blocked[sensing] = likeliest(keys, p, here, ELSEWHERE)
+    rows.likely[sensing] = np.where(untried, rows.likely[sensing], likely)
 
 
 def _transitions(places: Ints, rows: WayRows, stay: int) -> tuple[Transitions, Ints]:

@@ -51,6 +51,8 @@ class LocalModel:
         dropped: belief in places that were left out, before `belief` was made to sum to one again.
         structure: hypotheses about the map, side by side; None where there is but one.
         frontier: the options of an agent that explores by them; None for others.
+        untried: `[R, K]` nats that the first step along each way teaches, where no visit has told whether it is open;
+            None where that is nothing.
         kept: what was worked out of places, B, blocked, successor and entered alone, for models that share them.
     """
 
@@ -75,6 +77,7 @@ class LocalModel:
     structure: Structure | None = None
     frontier: Frontier | None = None
     kept: Kept | None = field(default=None, repr=False, compare=False)
+    untried: Floats | None = None
 
     @property
     def utility(self) -> Floats:
@@ -93,6 +96,7 @@ class LocalModel:
         return replace(
             self,
             kept=None,
+            untried=None if self.untried is None else self.untried[places],
             A=self.A[:, places],
             B=self.B.within(places),
             successor=number[self.successor[places]],
@@ -147,6 +151,7 @@ class LocalModel:
             "position": (R, axes),
             "blocked": (R, K),
             **dict.fromkeys(("places", "log_C_place", "entered"), (R,)),
+            **({} if self.untried is None else {"untried": (R, K)}),
         }
         tables: dict[str, NDArray[Any]] = {name: getattr(self, name) for name in shapes}
         for name, table in self.information.items():

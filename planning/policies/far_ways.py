@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..local import LocalCache, MapView, Preferences, Surroundings
+from ..local import Surroundings
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -33,7 +33,7 @@ def far_ways(around: Surroundings) -> Ints:
     long way that was found before, what is near.
     """
     map_, preferences = around.map, around.preferences
-    if not preferences.known and len(map_.visited_places) >= len(map_.places):
+    if not (preferences.known or around.tries) and len(map_.visited_places) >= len(map_.places):
         return around.near[:0]
     search = _Search(around, _most(around))
     search.go_on(around.look_ahead + 1)
@@ -82,7 +82,7 @@ class _Search:
         """Search on, up to so many steps from the start."""
         around, cache = self.around, self.around.cache
         while self.lasts and (until is None or self.steps < until):
-            worth = promise(around.map, cache, around.preferences, self.frontier)
+            worth = promise(around, self.frontier)
             if self.steps > around.look_ahead:
                 self.ends += self.frontier[worth > MORE * self.best][: FAR - len(self.ends)].tolist()
             self.best = max(self.best, float(worth.max()))
@@ -110,7 +110,7 @@ class _Found:
         """Whether the agent is on the way, ways and preferences are the same, and nothing as good is near."""
         if (around.cache.links, around.preferences) != (self._links, self._preferences) or MORE * near >= self._best:
             return False
-        worth = promise(around.map, around.cache, around.preferences, self._ends)
+        worth = promise(around, self._ends)
         on = np.isin(around.starts, self.places).all() and len(around.starts) == 1
         return bool(on and worth.max() >= self._best and self._leads_on(around))
 
@@ -125,12 +125,19 @@ def _most(around: Surroundings) -> float:
     sights = max((value for key, value in preferences.sights.items() if key >= 0), default=0.0)
     places = [value + unseen * (not map_.visited[place]) for place, value in preferences.places.items()]
     new = unseen if len(map_.visited_places) < len(map_.places) else 0.0
+    new = max([new, *around.tries.values()])
     return max(max(places) + max(sights, 0.0), new) if places else max(sights, new)
 
 
-def promise(map_: MapView, cache: LocalCache, preferences: Preferences, places: Ints) -> Floats:
-    """`[n]` nats hoped for in each of `places`: what its sight would teach where it is new, and what is preferred."""
+def promise(around: Surroundings, places: Ints) -> Floats:
+    """`[n]` nats hoped for in each of `places`.
+
+    That is what its sight would teach where it is new, what is preferred, and the way that is most worth a try.
+    """
+    map_, cache, preferences, tries = around.map, around.cache, around.preferences, around.tries
     worth = np.where(map_.visited[places], 0.0, cache.unseen()[1])
+    if tries:
+        worth += [tries.get(place, 0.0) for place in places.tolist()]
     for place, value in preferences.places.items():
         if value > 0.0:
             worth[places == place] += value

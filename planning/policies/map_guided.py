@@ -43,6 +43,7 @@ class MapGuided(PolicyGenerator):
     - A prefix is merged into one that is at the same place as early or earlier, has collected all that
       it has, and is worth as much.
     - Of what is left, each level keeps the `beam` best by value, then by how early it was collected.
+    - A step along a way that no look has told of is worth what it teaches, once.
     - Beside each place the best prefix may end with one step through a way that the map knows nothing of.
     - If a start has no place of great value within `look_ahead`, the shortest paths to the nearest places
       beyond that have one are added, so L may exceed `look_ahead`; and always those to the nearest places beyond that
@@ -119,7 +120,9 @@ def first_visit_value(model: LocalModel) -> Floats:
 
 def _calm(model: LocalModel) -> bool:
     """Whether nothing is to be had in any place, so that policies depend on ways alone."""
-    nothing = model.structure is None and not model.log_C.any() and not model.log_C_place.any()
+    nothing = (
+        model.structure is None and model.untried is None and not model.log_C.any() and not model.log_C_place.any()
+    )
     return nothing and float(first_visit_value(model)[:-1].max()) < LEAST
 
 
@@ -129,7 +132,8 @@ class _Skeleton:
 
     `ways[i]` holds (action, place it leads to, risk in nats), `unknown[i]` actions that lead nobody knows
     where, `bit[i]` is the place's bit (0: worth nothing), `value[i]` of a first visit, the `greatest` of them, the
-    `floor` below which a first visit is worth nothing, and `utility[i]` are in nats.
+    `floor` below which a first visit is worth nothing, and `utility[i]` are in nats. `tries[i]` has, of each way
+    that is worth a try, its bit and its nats, by action.
     """
 
     ways: list[list[tuple[int, int, float]]]
@@ -139,6 +143,7 @@ class _Skeleton:
     utility: list[float]
     greatest: float
     floor: float
+    tries: list[dict[int, tuple[int, float]]]
 
     @classmethod
     def of(cls, model: LocalModel) -> _Skeleton:
@@ -151,14 +156,20 @@ class _Skeleton:
         rows = zip(place.tolist(), action.tolist(), successor[place, action].tolist(), risk.tolist(), strict=True)
         for i, a, after, nats in rows:
             ways[i].append((a, after, nats))
-        place, action = np.nonzero((successor < 0) & (model.blocked < BLOCKED) & moves)
-        for i, a in zip(place.tolist(), action.tolist(), strict=True):
-            unknown[i].append(a)
-        value = first_visit_value(model)
-        greatest = float(value.max())
+        value, untried = first_visit_value(model), np.zeros(model.blocked.shape)
+        if model.untried is not None:
+            untried = model.information_weight * model.untried
+        greatest = max(float(value.max()), float(untried.max()))
         floor = max(SHARE * greatest, LEAST)
         bit = [1 << i if worth > floor else 0 for i, worth in enumerate(value.tolist())]
-        return cls(ways, unknown, bit, value.tolist(), model.utility.tolist(), greatest, floor)
+        place, action = np.nonzero((successor < 0) & ((model.blocked < BLOCKED) | (untried > floor)) & moves)
+        for i, a in zip(place.tolist(), action.tolist(), strict=True):
+            unknown[i].append(a)
+        tries: list[dict[int, tuple[int, float]]] = [{} for _ in successor]
+        place, action = np.nonzero(untried > floor)
+        for k, (i, a) in enumerate(zip(place.tolist(), action.tolist(), strict=True)):
+            tries[i][a] = 1 << (len(successor) + k), float(untried[i, a])
+        return cls(ways, unknown, bit, value.tolist(), model.utility.tolist(), greatest, floor, tries)
 
 
 def _starts(model: LocalModel) -> list[int]:
@@ -181,6 +192,7 @@ def _grow(skeleton: _Skeleton, start: int, look_ahead: int, beam: int) -> tuple[
         paths += [prefix[4] for prefix in level]
         ends = {prefix[2] for prefix in level} - {start}
         best = max(best, *(skeleton.value[place] for place in ends), 0.0)
+        best = max(best, *(nats for place in {start, *ends} for _, nats in skeleton.tries[place].values()), 0.0)
     return paths, cut, best
 
 
@@ -197,8 +209,17 @@ def _children(skeleton: _Skeleton, level: list[Prefix], left: int) -> list[Prefi
                 child = (worth + gain, early + left * gain, after, mask | bit[after], (*path, action))
             else:
                 child = (worth, early, after, mask, (*path, action))
+            if skeleton.tries[place]:
+                child = _tried(skeleton, child, place, left)
             children.append(child)
     return children
+
+
+def _tried(skeleton: _Skeleton, child: Prefix, place: int, left: int) -> Prefix:
+    """The same with what the first step along its last way teaches."""
+    value, early, after, mask, path = child
+    bit, nats = skeleton.tries[place].get(path[-1], (0, 0.0))
+    return (value + nats, early + left * nats, after, mask | bit, path) if bit & ~mask else child
 
 
 def _select(candidates: list[Prefix], archive: Archive, beam: int) -> tuple[list[Prefix], int]:
@@ -268,6 +289,8 @@ def _beyond(skeleton: _Skeleton, start: int, best: float) -> list[Path]:
     if best >= great:
         return better
     worthy = [path for place, path in shortest.items() if skeleton.value[place] >= great]
+    tries = ((path, a, nats) for place, path in shortest.items() for a, (_, nats) in skeleton.tries[place].items())
+    worthy += [(*path, a) for path, a, nats in tries if nats >= great]
     unknown = [(*path, a) for place, path in shortest.items() for a in skeleton.unknown[place]]
     return better + (worthy or unknown)[:BEYOND] or _better(skeleton, shortest, best, LEAST)
 

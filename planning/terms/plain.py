@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from math import floor, log
 
 from ..local import LocalModel
@@ -23,6 +23,8 @@ class Step:
         reached_before: probability of any visit of each place, up to the step before: the largest belief so far.
         reached: the same, this step included.
         path: the actions so far, this one included.
+        tried_before: probability that each action was tried in each place up to the step before, by (place, action).
+        tried: the same, this step included.
     """
 
     model: LocalModel
@@ -34,6 +36,8 @@ class Step:
     reached_before: Sequence[float]
     reached: Sequence[float]
     path: Sequence[int] = ()
+    tried_before: Mapping[tuple[int, int], float] = field(default_factory=dict[tuple[int, int], float])
+    tried: Mapping[tuple[int, int], float] = field(default_factory=dict[tuple[int, int], float])
 
 
 def predicted_sights(model: LocalModel, Q: Sequence[float]) -> list[float]:

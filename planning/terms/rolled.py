@@ -90,6 +90,15 @@ class Rollout:
         worth = reached * low + (visits - reached * whole) * (high - low)
         return np.bincount(row, weights=worth, minlength=len(self.belief)).astype(np.float64, copy=False)
 
+    def tried(self, place: Ints, action: Ints) -> Floats:
+        """`[N, P]` probability that each of `P` actions was taken in its place so far: the largest of the beliefs."""
+        tried = np.zeros((len(self.belief), len(place)))
+        for begin, end in self.levels:
+            parent = self.parent[begin:end]
+            now = self.belief[np.ix_(parent, place)] * (self.action[begin:end, None] == action)
+            np.maximum(tried[parent], now, out=tried[begin:end])
+        return tried
+
     @cached_property
     def _visited(self) -> tuple[Ints, Ints, Floats, Floats, Ints]:
         """Prefix and place of every expected visit, how many, with what probability any, and how many in that case."""

@@ -14,8 +14,9 @@ from ...visits import Visits
 from ..base import Floats, Ints, ModelFactor
 from ..transition import Transition
 
-Ahead = Sequence[tuple[Ints, float]]
-"""Poses `[n]` that an action may lead to from `n` poses, -1 where there is none, and with which probability."""
+Ahead = Sequence[tuple[Ints, float, float]]
+"""Poses `[n]` that an action may lead to from `n` poses, -1 where there is none; their probability; and the likelihood
+of what was measured of the move, up to a factor that is the same for all."""
 
 
 class Growing(Protocol):
@@ -85,9 +86,16 @@ class Pose(ModelFactor):
         """`[n]` P(p | s)."""
         raise NotImplementedError
 
-    def predict(self, poses: Ints, action: int, *, opened: bool) -> Ahead:
-        """Where an action leads from poses, whether its way was sensed open before or not."""
+    def predict(self, poses: Ints, action: int, percept: Percept) -> Ahead:
+        """Where an action leads from poses, whether its way was sensed open before or not, and as it was measured."""
         raise NotImplementedError
+
+    def measured(self, percept: Percept) -> Floats | None:
+        """`[K]` log P(measured displacement | the move of each action), the largest 0; None where nothing was measured.
+
+        None too where places have no positions: nobody knows then what to measure.
+        """
+        return None
 
     def stays(self, action: int, *, opened: bool) -> float:
         """Probability that an action leaves the pose as it is, by a slip or since the way was shut."""

@@ -17,9 +17,11 @@ from ...errors import CogmapError
 from ...growth_event import GrowthEvent
 from ...labels import decode, encode
 from ...motions import Position
+from ...percept import Percept
 from ...periods import Periods, reduced
 from ..base import Context, Floats, Ints, Support, Table, parts_of
 from .base import Ahead, Pose
+from .odometry import odometry
 
 MANY = 2**25
 """Entries of B_p that a file may ask for whose map has few places."""
@@ -180,10 +182,16 @@ class Lattice(Pose):
     def _moves(self, action: int, *, opened: bool) -> float:
         return 1.0 if action == self.motions.stay else 1.0 - self.slip if opened else self.slip
 
-    def predict(self, poses: Ints, action: int, *, opened: bool) -> Ahead:
-        """B_p: moved on, or not."""
-        moves = self._moves(action, opened=opened)
-        return (self.beyond.values[poses, action], moves), (poses, 1.0 - moves)
+    def predict(self, poses: Ints, action: int, percept: Percept) -> Ahead:
+        """B_p: moved on, or not; and P(measured displacement | that)."""
+        moves = self._moves(action, opened=percept.opened)
+        log = self.measured(percept)
+        gone, stayed = (1.0, 1.0) if log is None else np.exp(log[[action, self.motions.stay]]).tolist()
+        return (self.beyond.values[poses, action], moves, gone), (poses, 1.0 - moves, stayed)
+
+    def measured(self, percept: Percept) -> Floats | None:
+        """`[K]` log P(measured displacement | the move of each action); None where nothing was measured."""
+        return None if percept.displacement is None else odometry(self.motions, percept.displacement)
 
     def information(self, places: Ints, steps: int) -> Floats:
         """`[n, N + 1]` nats that 0..N more visits teach of A_p."""
@@ -194,10 +202,11 @@ class Lattice(Pose):
         poses, t = support.positions, support.step
         if support.before is not None and support.percept.action is not None:
             action = support.percept.action
-            ahead = self.predict(support.before[1], action, opened=support.percept.opened)
+            ahead = self.predict(support.before[1], action, support.percept)
             name, given = f"B_p[{self.motions.names[action]}]", "" if support.arrival is None else ", moved_t"
             values = partial(_motion, ahead, poses, moved=support.arrival is not None)
-            yield Table(name, support.scope("p"), values, "motion", f"P(p_t | p_t-1, a_t-1{given})")
+            told = "p_t" if support.percept.displacement is None else "p_t, measured"
+            yield Table(name, support.scope("p"), values, "motion", f"P({told} | p_t-1, a_t-1{given})")
         values = partial(_places, *self.spread(support.places), poses)
         yield Table("A_p", (f"p{t}", f"s{t}"), values, "place", "P(p_t | s_t)")
 
@@ -283,7 +292,7 @@ class Lattice(Pose):
 
 def _motion(ahead: Ahead, poses: Ints, *, moved: bool) -> Floats:
     """`[m, m']` P(p_t | p_t-1, a), or `[m, m', 2]`: anything where the agent was moved."""
-    values = sum((p * (poses[:, None] == there[None]) for there, p in ahead), np.zeros(()))
+    values = sum((p * told * (poses[:, None] == there[None]) for there, p, told in ahead), np.zeros(()))
     return np.stack([values, np.ones_like(values)], axis=-1) if moved else values
 
 

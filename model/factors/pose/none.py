@@ -7,6 +7,7 @@ import numpy as np
 from ...dirichlet import SparseDirichlet
 from ...domain import Domain
 from ...motions import Position
+from ...percept import Percept
 from ..base import Context, Floats, Ints
 from .base import Ahead, Pose
 
@@ -40,9 +41,9 @@ class NoPose(Pose):
         """It always does."""
         return 1.0
 
-    def predict(self, poses: Ints, action: int, *, opened: bool) -> Ahead:
+    def predict(self, poses: Ints, action: int, percept: Percept) -> Ahead:
         """It stays."""
-        return ((poses, 1.0),)
+        return ((poses, 1.0, 1.0),)
 
     def ahead(self, place: int, action: int) -> tuple[Position | None, int | None]:
         """Nobody knows."""

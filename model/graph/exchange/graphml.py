@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...errors import CogmapError
-from ...labels import encode, plain
+from ...labels import plain
+from ...written import jsonable
 from ..export import to_networkx
 from ..structure import GraphStructure
 
@@ -48,15 +49,4 @@ def _value(value: Any) -> str | int | float | bool:
     value = value.item() if isinstance(value, np.generic) else value
     if isinstance(value, str | int | float | bool):
         return value
-    return json.dumps(_json(value))
-
-
-def _json(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {str(plain(key)): _json(each) for key, each in cast(dict[Any, Any], value).items()}
-    if isinstance(value, list | tuple | np.ndarray):
-        return [_json(each) for each in cast(list[Any], value)]
-    try:
-        return encode(plain(value))
-    except CogmapError:
-        return repr(value)
+    return json.dumps(jsonable(value))

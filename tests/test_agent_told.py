@@ -1,0 +1,141 @@
+"""What is said or measured of a move is evidence: displacement, outcome, and what was really done."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from cogmap.agent import Agent
+from cogmap.inference.hypotheses import Sensed, Tracker, WayScheme
+from cogmap.model import CogmapError, Motions
+from cogmap.model.factors.pose.odometry import odometry
+from cogmap.worlds import load_world
+from walks import GRID
+
+from cogmap import UNSEEN
+
+
+def walls(*open_: str) -> list[bool]:
+    return [name in (*open_, "stay") for name in GRID]
+
+
+def driven(name: str, seed: int, *, by_hand: int, measured: float | None, slip: float = 0.0, steps: int = 60) -> Agent:
+    """An agent in a maze: led for some steps, then for itself; what is measured has noise, in shares of a move."""
+    rng, world = np.random.default_rng(seed), load_world(name)
+    observation, info = world.reset(seed=seed)
+    agent = Agent(world.motions, seed=seed)
+    for step in range(steps):
+        action = agent.step(observation)
+        assert agent.belief.moved < 0.01 or slip
+        if step < by_hand:
+            action = int(rng.choice(np.flatnonzero(observation["open"][:4])))
+        done = int(rng.integers(5)) if rng.random() < slip else action
+        before = info["position"]
+        observation, *_, info = world.step(done)
+        moved = np.subtract(info["position"], before)
+        said: dict[str, Any] = {"taken": done} if step < by_hand else {}
+        if measured is not None:
+            said["displacement"] = moved + measured * np.linalg.norm(moved) * rng.normal(size=2)
+        observation = {**observation, **said}
+    return agent
+
+
+@pytest.mark.parametrize(("name", "rooms"), [("4x4", 16), ("tolman", 23)])
+def test_an_agent_that_is_driven_by_hand_finds_every_room_once_and_thinks_of_no_silent_move(name: str, rooms: int):
+    agent = driven(name, 0, by_hand=12, measured=None)
+    assert len(agent.map.places) == rooms
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.2])
+def test_what_odometry_measured_says_which_move_was_made(noise: float) -> None:
+    for seed in (0, 2):  # without it these agents have 27 and 24 places
+        agent = driven("4x4", seed, by_hand=0, measured=noise, slip=0.3)
+        assert len(agent.map.places) == 16
+        assert {rate.name: rate.mean for rate in agent.learned_rates}["astray"] > 0.2
+
+
+@pytest.mark.parametrize(
+    ("measured", "there"), [([0.0, 1.0], (0, 1)), ([0.0, 0.0], (0, 0)), ([0.1, 0.8], (0, 1)), ([-0.1, 0.2], (0, 0))]
+)
+def test_a_measured_displacement_says_whether_it_moved(measured: list[float], there: tuple[int, int]) -> None:
+    agent = Agent(GRID, seed=0)
+    agent.step({"sight": "hall", "open": walls("right", "left")})
+    agent.step({"sight": UNSEEN, "open": UNSEEN, "taken": "right", "displacement": measured})
+    assert agent.map.position(agent.belief.place) == there
+
+
+def test_a_measured_displacement_is_a_student_t_about_each_move() -> None:
+    motions = Motions.of(GRID)
+    told = odometry(motions, (0.05, 0.9))
+    assert told.argmax() == 3
+    assert told.max() == 0.0
+    far = [np.sum(np.square(np.subtract((0.05, 0.9), move))) for move in motions.displacements]
+    np.testing.assert_allclose(told, -2.5 * np.log1p(np.array(far) / 0.03) + 2.5 * np.log1p(min(far) / 0.03))
+    assert np.ptp(odometry(motions, (300.0, 400.0))) < 0.05  # far off everything: it says hardly anything
+    assert np.isfinite(odometry(motions, (1e300, -1e300))).all()
+
+
+def test_a_way_that_the_body_found_blocked_is_believed_shut_and_one_that_it_took_open() -> None:
+    agent = Agent(GRID, seed=0)
+    agent.step({"sight": "hall", "open": UNSEEN})
+    for _ in range(2):
+        agent.step({"sight": "hall", "open": UNSEEN, "taken": "right", "outcome": "blocked"})
+    assert agent.map.position(agent.belief.place) == (0, 0)
+    assert agent.map.blocked(np.array([agent.belief.place]))[0, 3] > 0.9
+    agent.step({"sight": "room", "open": UNSEEN, "taken": "down", "outcome": "arrived"})
+    assert agent.map.position(agent.belief.place) == (1, 0)
+    assert agent.map.blocked(np.array([0]))[0, 1] < 0.1
+    assert agent.map.blocked(np.array([0]))[0, 3] > 0.9
+
+
+def test_a_body_that_fails_and_says_so_leaves_the_map_right() -> None:
+    rng, world = np.random.default_rng(0), load_world("4x4_alias")
+    observation, _ = world.reset(seed=0)
+    agent = Agent(world.motions, seed=0)
+    for _ in range(80):
+        action = agent.step(observation)
+        failed = action != world.motions.names.index("stay") and rng.random() < 0.3
+        observation, *_ = world.step(world.motions.names.index("stay") if failed else action)
+        observation = {**observation, "outcome": "blocked" if failed else "arrived"}
+    assert (len(agent.map.places), agent.map.visited.all()) == (16, True)
+    assert {rate.name: rate.mean for rate in agent.learned_rates}["fails"] > 0.1
+
+
+def test_a_body_that_is_not_sure_leaves_it_open_until_something_is_seen() -> None:
+    certainty: dict[str | None, float] = {}
+    for outcome in ("arrived", "unsure", None):
+        agent = Agent(GRID, seed=0)
+        agent.step({"sight": "hall", "open": walls("right", "left")})
+        said = {} if outcome is None else {"outcome": outcome}
+        agent.step({"sight": UNSEEN, "open": UNSEEN, "taken": "right", **said})
+        certainty[outcome] = agent.belief.certainty
+        assert agent.map.position(agent.belief.place) == (0, 1)
+    assert certainty["arrived"] > 0.999 > certainty[None] > certainty["unsure"] + 0.1
+
+
+def test_what_was_said_of_moves_is_kept_in_files(tmp_path: Any) -> None:
+    agent = driven("4x4_alias", 3, by_hand=0, measured=0.2, slip=0.3, steps=25)
+    agent.save(tmp_path / "agent.npz")
+    again = Agent.load(tmp_path / "agent.npz")
+    rng = np.random.default_rng(0)
+    for _ in range(10):
+        seen = {"sight": int(rng.integers(3)), "open": walls("right", "left"), "displacement": rng.normal(size=2)}
+        assert again.step(seen) == agent.step(seen)
+        assert again.belief.places == agent.belief.places
+        assert [h.probability for h in again.hypotheses] == [h.probability for h in agent.hypotheses]
+
+
+@pytest.mark.parametrize(
+    ("said", "message"),
+    [
+        ({"went": (0.0,)}, r"went is \(0.0,\); give 3 finite numbers, the largest 0"),
+        ({"went": (0.0, -1.0, float("nan"))}, "give 3 finite numbers"),
+        ({"went": (-1.0, -2.0, -3.0)}, "the largest 0"),
+        ({"fails": 1.5}, "fails is 1.5; give a number from 0 to 1"),
+    ],
+)
+def test_what_cannot_have_been_said_of_a_move_is_refused(said: dict[str, Any], message: str) -> None:
+    tracker = Tracker(WayScheme(2, (1, 0), ((1,), (-1,))))
+    with pytest.raises(CogmapError, match=message):
+        tracker.step(Sensed((0,), (1.0, 1.0), **said), [1])
