@@ -1,8 +1,8 @@
 """A robot's loop: perceive, decide, act; what went wrong is told; the agent goes on elsewhere.
 
 The loop is in your hands: `perceive` what the sensors say, as little as it may be, and `act` when it suits. The body
-says what it really did (`taken`) and what it could not see (`UNSEEN`). The agent is saved, and walks on from the file in
-another process, such as the robot's, or tomorrow's.
+says what it really did (`taken`) and what it could not see (`UNSEEN`). The agent is saved, and walks on from the file
+in another process, such as the robot's, or tomorrow's.
 """
 
 from __future__ import annotations
