@@ -14,11 +14,11 @@ from .protocol import Percept
 from .room_map import CENTRE, Pose, RoomMap, around
 from .routes import distances, route
 from .vocabulary import vocabulary
-from .whereabouts import FORWARD, LEFT, NOTHING, RIGHT, SURE, TOGGLE, Whereabouts, moved
+from .whereabouts import FORWARD, LEFT, NOTHING, RIGHT, SURE, Whereabouts, moved
 
 UP = 3
 """The way a body faces where it wakes up, whatever that is in the world."""
-_LOOKS, _TRIES, _PATIENCE = 40, 400, 12
+_LOOKS, _TRIES, _PATIENCE, _ASTRAY = 40, 400, 12, 40
 _PASSAGE = 5.0  # tiles that a passage is expected to have before any was walked
 
 
@@ -54,7 +54,7 @@ class MiniGridBody:
         self._given_up: set[mg.Tile] = set()
         self._far, self._walked = _PASSAGE, 1
         self.steps, self.ended, self.reward = 0, False, 0.0
-        self._confused = False
+        self._confused, self._unsure = False, 0
 
     @property
     def pose(self) -> Pose:
@@ -192,16 +192,14 @@ class MiniGridBody:
         self.steps += 1
         self.reward += float(reward)
         self.ended = self.ended or terminated or truncated
-        if action == TOGGLE:
-            x, y, heading = self.pose
-            self._known.unlearn((x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]))
         self._sense(action, observation)
 
     def _sense(self, action: int, observation: Any) -> None:
         view = self._eyes.look(observation["image"])
         meant = moved(self.pose, action, self._known)
         self._where.update(action, view, self._known)
-        if self._where.lost:
+        self._unsure = 0 if self._where.certainty >= SURE else self._unsure + 1
+        if self._where.lost or self._unsure > _ASTRAY:
             self._where.set(meant)  # which way it faces may be the same still
             self._anew(observation)
             self._confused = True
@@ -212,7 +210,7 @@ class MiniGridBody:
         """Nothing is known of where it is; it takes itself to face where it faced."""
         self._known.clear()
         self._given_up.clear()
-        self._seed = (CENTRE, CENTRE)
+        self._seed, self._unsure = (CENTRE, CENTRE), 0
         self._where.set((CENTRE, CENTRE, self.pose[2]))
         self._known.add(self.pose, self._eyes.look(observation["image"]))
         self._confused = False
@@ -233,23 +231,21 @@ class MiniGridBody:
                 exits = set(self._outlook().exits[way]) - left
             beyond = self._beyond(exits, room)
             goal = self._next(beyond, room)
-            if goal is None:
-                return "blocked"
-            plan = route(self.pose, self._known, [goal], within=room | beyond)
-            if plan is None:
-                return "blocked"
-            if not plan and waited < _PATIENCE:
+            plan = None if goal is None else route(self.pose, self._known, [goal], within=room | beyond)
+            if plan:
+                self._act(plan[0])
+            elif waited < _PATIENCE and (plan is not None or self._where.certainty < SURE):
                 waited += 1
                 self._act(self._into_the_unknown())
-            elif not plan:
+            elif plan is not None:
                 left |= exits
                 exits = set()
             else:
-                self._act(plan[0])
+                return "blocked"
         return "unsure"
 
     def _into_the_unknown(self) -> int:
-        """Turn to a tile of which nothing is known, and go there: where it is not sure of where it is, it saw nothing."""
+        """Turn to a tile of which nothing is known, and go there: who is not sure where it is has learned nothing."""
         x, y, heading = self.pose
         unknown = [h for h, other in around((x, y)) if not self._known.known(other)]
         turns = min(((h - heading) % 4 for h in unknown), default=1, key=(0, 1, 3, 2).index)
