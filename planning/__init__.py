@@ -3,6 +3,7 @@
 from .choices import CHOICES, TIE, Best, Choice, Outward, Sampled, Verdict
 from .energy import ExpectedFreeEnergy
 from .local import (
+    Frontier,
     LocalCache,
     LocalModel,
     MapHypotheses,
@@ -15,12 +16,23 @@ from .local import (
 )
 from .plan import Plan, policy_posterior
 from .planner import Planner
-from .policies import MAX_LOOK_AHEAD, POLICIES, Exhaustive, LShaped, MapGuided, Policies, PolicyGenerator, SelfAvoiding
+from .policies import (
+    MAX_LOOK_AHEAD,
+    POLICIES,
+    Exhaustive,
+    LShaped,
+    MapGuided,
+    Options,
+    Policies,
+    PolicyGenerator,
+    SelfAvoiding,
+)
 from .reference import evaluate_plain
 from .rollout import evaluate
 from .terms import (
     TERMS,
     Collision,
+    Cost,
     Learned,
     PositionInformation,
     Rollout,
@@ -32,6 +44,8 @@ from .terms import (
     Term,
     TransitionInformation,
     Utility,
+    WayBack,
+    WayThere,
 )
 
 __all__ = [
@@ -43,8 +57,10 @@ __all__ = [
     "Best",
     "Choice",
     "Collision",
+    "Cost",
     "Exhaustive",
     "ExpectedFreeEnergy",
+    "Frontier",
     "LShaped",
     "Learned",
     "LocalCache",
@@ -52,6 +68,7 @@ __all__ = [
     "MapGuided",
     "MapHypotheses",
     "MapView",
+    "Options",
     "Outward",
     "Plan",
     "Planner",
@@ -74,6 +91,8 @@ __all__ = [
     "Transitions",
     "Utility",
     "Verdict",
+    "WayBack",
+    "WayThere",
     "evaluate",
     "evaluate_plain",
     "local_model",

@@ -6,7 +6,8 @@ from . import minigrid
 from .base import PlaceEnv
 from .behaviour import behaviour, distinguishable
 from .builtin import MAZES
-from .drawing import draw, label_colour
+from .colours import label_colour
+from .drawing import draw
 from .environment import MazeEnv
 from .errors import WorldError
 from .generate import comb, hall, office, random_maze, rings, spiral

@@ -7,6 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import equations
+import notebooks
 import reference
 import repository
 import running
@@ -47,6 +49,11 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
         text = repository.example_page(path, outcome.text, running.shown_pictures(outcome.pictures, "", uri))
         files.append(File.generated(config, uri, content=text))
         _add_pictures(outcome.pictures, uri, files, config)
+    for path in repository.NOTEBOOKS:
+        uri, page = repository.PAGES[f"examples/{path.name}"], notebooks.notebook_page(path)
+        files.append(File.generated(config, uri, content=page.markdown))
+        files.append(File.generated(config, f"examples/{path.name}", content=path.read_bytes()))
+        _add_pictures(page.pictures, uri, files, config)
     return files
 
 
@@ -59,7 +66,7 @@ def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: 
     if not uri.startswith(("examples/", "decisions/")):
         markdown, pictures = running.with_outcomes(markdown, uri)
         _add_pictures(pictures, uri, files, config)
-    return reference.with_links(markdown)
+    return equations.with_equations(reference.with_links(markdown), uri)
 
 
 def _add_pictures(pictures: dict[str, bytes], uri: str, files: Files, config: Any) -> None:

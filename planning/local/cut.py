@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
-from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
+from ...model import ELSEWHERE, EMPTY, CogmapError, SparseDirichlet, distinct
 from .cache import Cut, LocalCache, WayRows
 from .dormant import leave_out_dormant
+from .frontier import Frontier
 from .kept import Kept
 from .model import Floats, Ints, LocalModel
 from .preferences import Preferences
@@ -18,6 +19,10 @@ from .structure import MapHypotheses, Structure
 from .transitions import Transitions, likeliest
 from .view import MapView
 
+FEW = 128
+"""Places up to which what their ways would tell of each is asked: the work is the square of their number."""
+SURE = 0.5
+"""Belief in one place from which on an agent explores by options from there."""
 HOPE = 0.4
 """P(a way that is worth a try leads beyond) from which on plans count on it."""
 
@@ -80,13 +85,16 @@ def local_model(
     cache: LocalCache | None = None,
     beyond: Callable[[Surroundings], Ints] = nothing_beyond,
     structure: MapHypotheses | None = None,
+    costs: Floats | None = None,
+    explorer: Callable[[Surroundings], Frontier | None] | None = None,
     unseen: Sequence[bool] = (),
 ) -> LocalModel:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
-    Everything within `look_ahead` steps is in it, and what `beyond` asks for. Of a belief over more than `starts`
-    places the likeliest remain (see `LocalModel.dropped`). What a `cache` of the map has kept from the last step is not
-    worked out again. Of the ways of actions that are `unseen`, no sensor tells: a step along one does.
+    Everything within `look_ahead` steps is in it, and what `beyond` asks for; or, where an `explorer` answers with
+    options, the ways to them, undiscounted. Of a belief over more than `starts` places the likeliest remain (see
+    `LocalModel.dropped`). What a `cache` of the map has kept from the last step is not worked out again. Of the ways of
+    actions that are `unseen`, no sensor tells: a step along one does.
 
     Raises:
         CogmapError: the cache is of another map or tells of fewer visits than `look_ahead`, `starts` is below one, or
@@ -99,15 +107,22 @@ def local_model(
     cache.refresh()
     preferences = preferences or Preferences()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
-    near = cache.within(places, look_ahead)
-    apart = Structure.of(structure)
-    far = beyond(Surroundings(map_, cache, places, near, preferences, open_, look_ahead, apart, unseen))
+    apart, frontier = Structure.of(structure), None
+    around = Surroundings(map_, cache, places, places[:0], preferences, open_, look_ahead, apart, unseen)
+    if explorer is not None and belief.max() >= SURE:
+        frontier = explorer(replace(around, starts=places[[belief.argmax()]]))
+    if frontier is not None:
+        near, far, discount = cache.within(places, 1), np.array(frontier.places, dtype=np.int64), 1.0
+    else:
+        near = cache.within(places, look_ahead)
+        far = beyond(replace(around, near=near))
     within = np.union1d(near, far) if len(far) else near
     key = places.tobytes(), within.tobytes(), tuple(open_), tuple(unseen)
     cut = cache.cut(key, partial(_cut, map_, cache, places, within, open_, unseen))
     q = np.zeros(len(cut.places))
     q[cut.at] = belief
-    A, multiplicity, log_C = _sights(map_, within, preferences)
+    A, multiplicity, log_C = _sights(map_.A_o, within, preferences)
+    others = [sensor.table for sensor in map_.sights_sensed[1:]]
     seen = cache.sights(within)
     seen.position[-1] = np.nan
     seen.sights[-1] = cache.unseen()
@@ -136,6 +151,10 @@ def local_model(
         information_weight=information_weight,
         dropped=dropped,
         structure=apart,
+        senses=tuple(_sights(table, within, Preferences())[0] for table in others),
+        looks="open" in map_.sensors and len(within) <= FEW,
+        costs=costs,
+        frontier=frontier,
         kept=cut.kept,
         untried=cut.untried,
     )
@@ -186,13 +205,13 @@ def _likeliest_starts(places: Ints, belief: Floats, most: int) -> tuple[Ints, Fl
     return places[kept], belief[kept] / mass, max(float(belief.sum()) - mass, 0.0)
 
 
-def _sights(map_: MapView, places: Ints, preferences: Preferences) -> tuple[Floats, Floats, Floats]:
-    """A over the outcomes that places of the model (or preferences) tell apart, and one row for all the rest."""
-    keys, p, other = map_.A_o.mean(places)
-    preferred, log_preferred, log_other = preferences.log_C(map_.A_o.outcomes)
+def _sights(table: SparseDirichlet, places: Ints, preferences: Preferences) -> tuple[Floats, Floats, Floats]:
+    """A of a sensor over the outcomes that places (or preferences) tell apart, and one row for all the rest."""
+    keys, p, other = table.mean(places)
+    preferred, log_preferred, log_other = preferences.log_C(table.outcomes)
     row, slot = np.nonzero(keys >= 0)
     outcomes, index = distinct(np.concatenate([keys[row, slot], preferred]))
-    apart, total = len(outcomes), map_.A_o.outcomes
+    apart, total = len(outcomes), table.outcomes
     rest = total - apart
     A = np.full((apart + 1, len(places) + 1), 1.0 / total)
     A[:, :-1] = other

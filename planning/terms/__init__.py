@@ -2,6 +2,7 @@
 
 from .base import KINDS, Term
 from .collision import Collision
+from .cost import Cost
 from .learned import Learned
 from .plain import Step
 from .position_information import PositionInformation
@@ -11,6 +12,8 @@ from .state_information import StateInformation
 from .structure_information import StructureInformation
 from .transition_information import TransitionInformation
 from .utility import Utility
+from .way_back import WayBack
+from .way_there import WayThere
 
 TERMS: tuple[Term, ...] = (
     StateInformation(),
@@ -27,6 +30,7 @@ __all__ = [
     "KINDS",
     "TERMS",
     "Collision",
+    "Cost",
     "Learned",
     "PositionInformation",
     "Rollout",
@@ -38,4 +42,6 @@ __all__ = [
     "Term",
     "TransitionInformation",
     "Utility",
+    "WayBack",
+    "WayThere",
 ]
