@@ -4,9 +4,21 @@ from __future__ import annotations
 
 from .agent import Agent
 from .following import Followed, follow
+from .pomdp import Pomdp
 from .settings import Settings
 from .state import GivenPreferences
 from .storage import read_header
 from .trace import StepRecord
+from .trace_table import trace_table
 
-__all__ = ["Agent", "Followed", "GivenPreferences", "Settings", "StepRecord", "follow", "read_header"]
+__all__ = [
+    "Agent",
+    "Followed",
+    "GivenPreferences",
+    "Pomdp",
+    "Settings",
+    "StepRecord",
+    "follow",
+    "read_header",
+    "trace_table",
+]

@@ -29,6 +29,7 @@ from ..model import (
     map_state,
     release,
     restore_map,
+    safe,
     take_slice,
     window_graph,
 )
@@ -156,6 +157,7 @@ class Agent:
         )
         self.rng = _generator(seed)
         self.trace: list[StepRecord] = []
+        self._recognising = settings.hypotheses is not None and not self.map.pose.settles
         self._recognition = Recognition(self.map, self.growth, settings.hypotheses)
         self._mapper = Mapper(self.map, self.growth, self._recognition.mirror.ways, settings)
         self._cache = LocalCache(self.map, settings.look_ahead)
@@ -212,7 +214,7 @@ class Agent:
             CogmapError: the map has no such place.
         """
         self.map.check_place(place)
-        return self._recognition.mirror.steps_in(place)
+        return self._recognition.mirror.steps_in(place) if self._recognising else self.map.pose.steps_in(place)
 
     @property
     def certain(self) -> bool:
@@ -306,7 +308,7 @@ class Agent:
         state.begun, state.revised = len(self.map.changes), False
         self.map.grow_time(step=state.steps)
         percept = percept_of(values, self.map, action=state.action, open_=state.open, step=state.steps)
-        if self.settings.hypotheses is not None:
+        if self._recognising:
             self._recognition.take_in(percept)
         self._infer(percept)
         self._teach(percept)
@@ -466,7 +468,7 @@ class Agent:
             "map": map_,
             "state": pack(self._state, arrays, "state"),
         }
-        if self.settings.hypotheses is not None:
+        if self._recognising:
             header["recognition"] = self._recognition.state(arrays)
         return header, arrays
 
@@ -495,11 +497,18 @@ class Agent:
         recognition = agent._recognition
         if "recognition" in header:
             recognition.restore(header["recognition"], arrays)
-        if agent.settings.hypotheses is None:
+        if not agent._recognising:
             recognition.forget()
         elif recognition.followed is None and agent._state.belief is not None:
             recognition.know(agent._state.belief.place, step=agent._state.steps)
         return agent
+
+    def _repr_html_(self) -> str:
+        """Its map, and where it believes to be."""
+        belief = (
+            f"<p>after {self.steps} steps: {safe(self.belief)}</p>" if self.steps else "<p>it has seen nothing yet</p>"
+        )
+        return f"<div>{belief}{self.map._repr_html_()}</div>"  # pyright: ignore[reportPrivateUsage]
 
     def __repr__(self) -> str:
         return f"Agent({self.map!r}, step {self.steps})"
@@ -515,6 +524,7 @@ class Agent:
             return
         if percept.action is not None and percept.opened and state.belief is not None and self._located:
             self._mapper.enter(Whereabouts(state.belief.places), percept.action, step=state.steps)
+            self._mapper.arrive(state.belief.place, percept, step=state.steps)
         belief = advance(self.map, message, percept, support=self.settings.filter.support)
         sure = belief.message.certainty >= self.settings.certainty
         state.belief = belief.committed() if sure and not self.map.visited[belief.place] else belief
@@ -523,7 +533,7 @@ class Agent:
         """Teach the map the step, or have it say what the most probable hypothesis says instead."""
         recognition, state, belief = self._recognition, self._state, self.belief
         self._mapper.fade()
-        if self.settings.hypotheses is None:
+        if not self._recognising:
             self._remember(percept)
             if self._located:
                 doors = percept.open or (None,) * len(self.map.motions)

@@ -30,6 +30,10 @@ class Mapper:
         """Before inference: the agent took a door that was open."""
         self._map.recall(self._growth.enter(self._map, belief, action, step=step))
 
+    def arrive(self, place: int, percept: Percept, *, step: int) -> None:
+        """Before inference: what was measured of the move from a place."""
+        self._map.pose.arrive(self._map, place, percept, step=step)
+
     def fade(self) -> None:
         """What was learned long ago fades, where the settings say so."""
         if self._settings.forgetting:
@@ -57,6 +61,7 @@ class Mapper:
                     back = next_ != place or map_.motions.inverse[percept.action] not in one_way
                     map_.transitions.learn(previous, percept.action, next_, walked, back=back)
         map_.mark_visited(place)
+        map_.pose.look(map_, place, percept, step=step)
         map_.recall(self._growth.look(map_, Whereabouts(belief.places), open_, step=step))
         map_.learn(place, {name: told for name, told in percept.readings.items() if name != self._ways.name}, weight)
         self._ways.learn(place, doors, weight, one_way=one_way)

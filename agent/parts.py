@@ -7,10 +7,11 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from ..model import GROWTHS, POSES, SENSORS, CogmapError, GenerativeModel, Growth, Pose, Sensor
-from ..planning import CHOICES, POLICIES, TERMS, Planner
+from ..planning import CHOICES, POLICIES, TERMS, Options, Planner
 
 Kinds = Mapping[str, type[Any]]
 
+_EXPLORERS: Kinds = {Options.name: Options}
 _TERMS: Kinds = {term.name: type(term) for term in TERMS}
 
 
@@ -28,6 +29,7 @@ def parts_of(model: GenerativeModel, growth: Growth, planner: Planner) -> dict[s
             "policies": _described(planner.policies, POLICIES),
             "terms": [_described(term, _TERMS) for term in planner.terms],
             "choice": _described(planner.choice, CHOICES),
+            "explorer": None if planner.explorer is None else _described(planner.explorer, _EXPLORERS),
         },
     }
 
@@ -54,10 +56,12 @@ def made_of(
 
 
 def _planner(parts: Mapping[str, Any]) -> Planner:
+    explorer = parts.get("explorer")  # earlier versions have none
     return Planner(
         policies=_made("planner with policies", parts["policies"], POLICIES),
         terms=[_made("planner with a term", term, _TERMS) for term in parts["terms"]],
         choice=_made("planner with a choice", parts["choice"], CHOICES),
+        explorer=_made("planner with an explorer", explorer, _EXPLORERS) if explorer else None,
     )
 
 

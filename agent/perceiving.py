@@ -110,13 +110,14 @@ def _moved(moved: Any, model: GenerativeModel) -> bool:
 
 
 def _displacement(measured: Any, model: GenerativeModel) -> tuple[float, ...]:
-    size = len(model.motions.displacements[0])
+    sizes = (2, 3) if model.pose.settles else (model.pose.dimensions,)
     try:
         vector = tuple(float(each) for each in measured if each is not np.ma.masked)
     except (TypeError, ValueError):
         vector = ()
-    if len(vector) != size or not all(map(isfinite, vector)):
-        raise CogmapError(f"observation: 'displacement' is {_short(measured)}; give {size} finite numbers")
+    if len(vector) not in sizes or not all(map(isfinite, vector)):
+        given = " or ".join(map(str, sizes))
+        raise CogmapError(f"observation: 'displacement' is {_short(measured)}; give {given} finite numbers")
     return vector
 
 

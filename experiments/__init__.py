@@ -32,7 +32,7 @@ __all__ = [
     "set_out", "spread", "std", "summarise", "unused", "walk", "workers", "write_json", "write_picture",
 ]  # fmt: skip
 
-_EARLY = "text pool running output ledger records parts judging knowledge session"
+_EARLY = "text pool running output ledger records low_level parts judging knowledge session"
 _MODULES = f"{_EARLY} goals exploring kidnapping navigating cells"
 
 

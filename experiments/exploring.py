@@ -15,6 +15,7 @@ from ..baselines import FrontierAgent
 from ..worlds import MOST_WALKED, Chart, Maze, Place, covering_steps, frontier_walk, place_of, world_of
 from .judging import Trail
 from .knowledge import Truth
+from .low_level import Meter, low_level
 from .records import OPTIONAL, Record, mean, ratio, std
 from .running import Moment, Watch, run
 from .session import Many, Options, Session, World, chart_of, described, head_of, many, set_out
@@ -38,6 +39,9 @@ class ExploreRun(Record):
         not_worked_out: what was left out, and why; None if nothing was.
         places, map_right, known: of an agent with a map, what that map is worth at the end; see `Verdict`.
         certain_but_wrong: share of the steps at which the agent was certain of a place that belongs to another room.
+        low_level_steps: of a body, until every room was entered; its exact oracle is `low_level_oracle`.
+        low_level_steps_to_see: until nine tenths of the tiles were seen.
+        tiles_seen: the share at the end.
     """
 
     seed: int
@@ -53,6 +57,10 @@ class ExploreRun(Record):
     map_right: bool | None = field(default=None, metadata=OPTIONAL)
     known: float | None = field(default=None, metadata=OPTIONAL)
     certain_but_wrong: float | None = field(default=None, metadata=OPTIONAL)
+    low_level_steps: int | None = field(default=None, metadata=OPTIONAL)
+    low_level_oracle: int | None = field(default=None, metadata=OPTIONAL)
+    low_level_steps_to_see: int | None = field(default=None, metadata=OPTIONAL)
+    tiles_seen: float | None = field(default=None, metadata=OPTIONAL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +106,9 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
     left_out = f"oracle_steps, frontier_steps: more than {MOST_WALKED} places" if oracle is instead is None else None
     figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
     return Walk(
-        ExploreRun(seed, session.start, *figures, left_out, *_worth(session, known.trail)),
+        ExploreRun(
+            seed, session.start, *figures, left_out, *_worth(session, known.trail), *Meter.of(session.world).explored()
+        ),
         done.truth,
         session.agent,
         session.truth,
@@ -108,7 +118,7 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
 def _worth(session: Session, trail: Trail) -> tuple[Any, ...]:
     """What the map of the agent is worth, and how often it was certain and wrong; nothing of one without a map."""
     if not isinstance(session.agent, Agent):
-        return ()
+        return None, None, None, None
     worth = trail.verdict(session.agent, chart_of(session.world))
     return worth.places, worth.map_right, round(worth.known, 6), round(trail.wrong / len(trail.rooms), 6)
 
@@ -149,7 +159,7 @@ def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
         summary["map_right"] = sum(run.map_right is True for run in runs)
         for name in ("places", "known", "certain_but_wrong"):
             summary[f"mean_{name}"] = mean(getattr(run, name) for run in runs)
-    return summary
+    return summary | low_level(runs, "low_level_steps", "low_level_oracle", "low_level_steps_to_see", "tiles_seen")
 
 
 def exploration(world: World, runs: Sequence[ExploreRun], **options: Unpack[Options]) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import Any, Required, Unpack, cast
 from ..worlds import CanClose, Label, Place, offered
 from .exploring import frontier_search
 from .goals import WEIGHT, check_goal, shortest
+from .low_level import Meter, low_level
 from .records import OPTIONAL, Record, mean, ratio
 from .running import Moment, Watch
 from .session import Many, Options, Session, World, chart_of, described, draw_start, head_of, many, set_out
@@ -29,6 +30,7 @@ class NavigateRun(Record):
         frontier_steps: of nearest-frontier search from `start` until it first stands in a room with the sight; only
             if the agent set out unexplored.
         steps_to_stand: until the agent first stands in a room with the sight, whatever it chooses; None if never.
+        low_level_steps: of a body, from setting out until it was there; None if never. `low_level_oracle`: the fewest.
     """
 
     seed: int
@@ -40,6 +42,8 @@ class NavigateRun(Record):
     steps_to_explore: int | None = None
     frontier_steps: int | None = field(default=None, metadata=OPTIONAL)
     steps_to_stand: int | None = None
+    low_level_steps: int | None = field(default=None, metadata=OPTIONAL)
+    low_level_oracle: int | None = field(default=None, metadata=OPTIONAL)
 
     def to_dict(self) -> dict[str, Any]:
         """The run as plain JSON values, without the fields of the other kind of run."""
@@ -90,18 +94,18 @@ def navigate(
     session, chart = set_out("navigate", world, seed, **others), chart_of(world)
     if not known:
         start, for_agent, _ = draw_start("navigate", world, seed)
-        steps, stood = _reach(session, goal, weight, watch)
+        steps, stood, low = _reach(session, goal, weight, watch)
         least, frontier = shortest(chart, start, goal), frontier_search(chart, start, for_agent, goal=goal)
-        return NavigateRun(seed, start, steps is not None, steps, least, None, None, frontier, stood)
+        return NavigateRun(seed, start, steps is not None, steps, least, None, None, frontier, stood, *low)
     session.explore(watch)
     if session.steps is None:
         return NavigateRun(seed, None, False, None, None, session.start)
     room = session.displace(elsewhere=False, but=closed)
     for shut in closed:
         offered(session.world, CanClose, "close").close_room(shut)
-    steps, stood = _reach(session, goal, weight, watch)
+    steps, stood, low = _reach(session, goal, weight, watch)
     least, explored = shortest(chart, room, goal, closed), (session.start, session.steps)
-    return NavigateRun(seed, room, steps is not None, steps, least, *explored, steps_to_stand=stood)
+    return NavigateRun(seed, room, steps is not None, steps, least, *explored, None, stood, *low)
 
 
 def navigate_many(world: World, **options: Unpack[NavigateMany]) -> list[NavigateRun]:
@@ -128,6 +132,7 @@ def navigate_result(world: World, runs: Sequence[NavigateRun], **options: Unpack
     if not known:
         frontier = [run.frontier_steps or 0 for run in there]
         summary |= {"total_frontier_steps": sum(frontier), "mean_frontier_steps": mean(frontier)}
+    summary |= low_level(there, "low_level_steps", "low_level_oracle")
     head |= {"goal": goal, "weight": weight, "unexplored": not known}
     shut = {"closed": [list(room) for room in closed]} if closed else {}
     rows = [run.to_dict() for run in runs]
@@ -141,8 +146,10 @@ def _task(options: NavigateOptions) -> tuple[Label, bool, float, Sequence[Place]
     return options["goal"], known, weight, closed, cast(Options, others)
 
 
-def _reach(session: Session, goal: Label, weight: float, watch: Watch | None) -> tuple[int | None, int | None]:
-    """Steps before it chooses to stay in a room with the sight, and before it first stands in one."""
+def _reach(
+    session: Session, goal: Label, weight: float, watch: Watch | None
+) -> tuple[int | None, int | None, tuple[int | None, int | None]]:
+    """Steps before it chooses to stay in a room with the sight, before it first stands in one, and of the low level."""
     reached = stood = None
     stay = chart_of(session.world).motions.names.index("stay")
 
@@ -154,6 +161,8 @@ def _reach(session: Session, goal: Label, weight: float, watch: Watch | None) ->
         stop = watch is not None and watch(moment) is True
         return stop or reached is not None
 
+    meter = Meter.of(session.world, goal)
     session.agent.prefer({goal: weight})
     session.run(session.most + 1, look)
-    return reached, stood
+    took, least = meter.towards()
+    return reached, stood, (None if reached is None else took, least)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..agent import Agent, Settings
 from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
-from ..model import GROWTHS, POSES, CogmapError, Pose, Sensor, Sight, StaticGrowth, Ways
+from ..model import GROWTHS, POSES, Bearings, CogmapError, Pose, Sensor, Sight, StaticGrowth, Ways
 from ..planning import CHOICES, POLICIES, LShaped, MapGuided, Planner, Sampled
 from ..worlds import Chart, HasChart, Motions, World, offered
 
@@ -114,7 +114,12 @@ class Parts:
             growth = StaticGrowth(len(chart.places)) if self.growth == StaticGrowth.name else GROWTHS[self.growth]()
             planner = Planner(policies=POLICIES[self.policies](), choice=CHOICES[self.choice]())
             number = int(seed.generate_state(1)[0])
-            own: Any = {"sensors": _sensors(world), "pose": self._pose(motions), "growth": growth, "planner": planner}
+            own: Any = {
+                "sensors": _sensors(world),
+                "pose": self._pose(world, motions),
+                "growth": growth,
+                "planner": planner,
+            }
             return Agent(motions, **own, settings=self.settings, seed=number)
         if self.agent in CSCG:
             positions, how = CSCG[self.agent]
@@ -125,13 +130,16 @@ class Parts:
             raise CogmapError(f"agent {self.agent} reckons where it is, and these actions have no displacements")
         return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
 
-    def _pose(self, motions: Motions) -> Pose | None:
-        """The pose that was asked for; a lattice only where actions have displacements."""
+    def _pose(self, world: Any, motions: Motions) -> Pose | None:
+        """The pose that was asked for; a lattice only where actions have displacements, a plane where moves do."""
+        measured = not motions.displacements and "displacement" in _observed(world)
+        if self.pose == "plane" and not measured:
+            raise CogmapError("pose plane needs a world that tells the displacement of each move; use --pose none")
         if self.pose == "lattice" and not motions.displacements:
             raise CogmapError(
                 "pose lattice needs actions with displacements; declare graph.motions, or use --pose none"
             )
-        name = self.pose or (None if motions.displacements else "none")
+        name = self.pose or (None if motions.displacements else "plane" if measured else "none")
         return None if name is None else POSES[name]()
 
     def to_dict(self, chart: Chart | None = None) -> dict[str, Any]:
@@ -147,8 +155,13 @@ class Parts:
 
 def _sensors(world: Any) -> list[Sensor] | None:
     """A sensor for each that the world has; None where these are the usual two."""
-    space: Any = getattr(world, "observation_space", None)
-    names = [name for name in getattr(space, "spaces", ()) if name not in ("bearings", "displacement")]
+    names = [name for name in _observed(world) if name not in ("ways", "displacement")]
     if not names or sorted(names) == ["open", "sight"]:
         return None
-    return [Ways() if name == "open" else Sight(name) for name in names if name != "ways"]
+    own: dict[str, Sensor] = {"open": Ways(learned="bearings" in names), "bearings": Bearings()}
+    return [own.get(name) or Sight(name) for name in names]
+
+
+def _observed(world: Any) -> list[str]:
+    """What is in an observation."""
+    return list(getattr(getattr(world, "observation_space", None), "spaces", ()))

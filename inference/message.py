@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import CogmapError, Successors, is_number
+from ..model import CogmapError, Successors, html_table, is_number
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -131,6 +131,11 @@ class Belief:
         places = ", ".join(f"{place}: {q:.3g}" for place, q in list(ranked.items())[:shown])
         more = f", … {len(ranked) - shown} more" if len(ranked) > shown else ""
         return f"Belief({{{places}{more}}}, certainty {self.certainty:.3g}, free energy {self.free_energy:.3g} nats)"
+
+    def _repr_html_(self) -> str:
+        rows = [(place, f"{q:.4g}") for place, q in self.places.items()]
+        told = f"certainty {self.certainty:.3g}, free energy {self.free_energy:.3g} nats"
+        return html_table(("place", "Q(s)"), rows, most=8, caption=told)
 
     @property
     def accuracy(self) -> float:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from .graph import LabelledTable, table
 from .map_graph import map_dot, map_graph, map_json
+from .map_html import map_html, map_svg
 from .map_tables import map_table
 from .readable_map import ReadableMap
 
 if TYPE_CHECKING:
     from networkx import MultiDiGraph
-    from pandas import DataFrame
 
 
 class CognitiveMap(ReadableMap):
@@ -32,7 +32,7 @@ class CognitiveMap(ReadableMap):
 
     def table(
         self, name: str, *, action: str | int | None = None, places: Sequence[int] | None = None
-    ) -> DataFrame | LabelledTable:
+    ) -> LabelledTable:
         """`A_o`, `A_p`, or `B_s` of one action, with labels on both axes; see `map_tables.map_table`."""
         return table(map_table(self, name, action=action, places=places))
 
@@ -42,3 +42,9 @@ class CognitiveMap(ReadableMap):
             f"CognitiveMap({len(self.places)} places, {seen} visited, "
             f"{len(self.positions)} positions, {len(self.sights)} sights)"
         )
+
+    def _repr_svg_(self) -> str | None:
+        return map_svg(self)
+
+    def _repr_html_(self) -> str:
+        return map_html(self)

@@ -162,6 +162,7 @@ class GenerativeModel:
             self.transitions.link(source, action, place)
             if self.motions.inverse[action] >= 0:
                 self.transitions.link(place, self.motions.inverse[action], source)
+            self.pose.imagine(place, source, action)
         return place
 
     def bind(

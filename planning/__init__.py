@@ -3,6 +3,7 @@
 from .choices import CHOICES, TIE, Best, Choice, Outward, Sampled, Verdict
 from .energy import ExpectedFreeEnergy
 from .local import (
+    Frontier,
     LocalCache,
     LocalModel,
     MapHypotheses,
@@ -15,7 +16,17 @@ from .local import (
 )
 from .plan import Plan, policy_posterior
 from .planner import Planner
-from .policies import MAX_LOOK_AHEAD, POLICIES, Exhaustive, LShaped, MapGuided, Policies, PolicyGenerator, SelfAvoiding
+from .policies import (
+    MAX_LOOK_AHEAD,
+    POLICIES,
+    Exhaustive,
+    LShaped,
+    MapGuided,
+    Options,
+    Policies,
+    PolicyGenerator,
+    SelfAvoiding,
+)
 from .reference import evaluate_plain
 from .rollout import evaluate
 from .terms import (
@@ -32,6 +43,8 @@ from .terms import (
     Term,
     TransitionInformation,
     Utility,
+    WayBack,
+    WayThere,
 )
 
 __all__ = [
@@ -45,6 +58,7 @@ __all__ = [
     "Collision",
     "Exhaustive",
     "ExpectedFreeEnergy",
+    "Frontier",
     "LShaped",
     "Learned",
     "LocalCache",
@@ -52,6 +66,7 @@ __all__ = [
     "MapGuided",
     "MapHypotheses",
     "MapView",
+    "Options",
     "Outward",
     "Plan",
     "Planner",
@@ -74,6 +89,8 @@ __all__ = [
     "Transitions",
     "Utility",
     "Verdict",
+    "WayBack",
+    "WayThere",
     "evaluate",
     "evaluate_plain",
     "local_model",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, html_table
 from .choices import Choice
 from .energy import ExpectedFreeEnergy
 from .local import LocalModel
@@ -52,6 +52,16 @@ class Plan:
         steps = ", ".join(names) + (f", … {more} more" if more > 0 else "")
         odds = f"P {float(self.probability[self.chosen]):.3g} of {len(self.policies)} policies"
         return f"Plan({steps}; G {G:.3f} nats, {odds}, over {len(self.places)} places)"
+
+    def _repr_html_(self) -> str:
+        """The most probable policies, the chosen one first."""
+        G, most = self.expected_free_energy.G, 8
+        best = [k for k in np.argsort(-self.probability, kind="stable")[: most + 1].tolist() if k != self.chosen]
+        rows: list[tuple[object, ...]] = []
+        for k in (self.chosen, *best[: most - 1]):
+            names = [self.model.motions.names[action] for action in self.policies[k, :SHOWN].tolist()]
+            rows.append((", ".join(names), f"{float(G[k]):.3f}", f"{float(self.probability[k]):.3g}"))
+        return html_table(("policy", "G, nats", "P(policy)"), rows, most=most, caption=f"{len(self.policies)} policies")
 
     @property
     def policy(self) -> Ints:

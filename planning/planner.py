@@ -13,12 +13,14 @@ from ..model import CogmapError, Motions
 from .choices import Choice, Outward, Sampled
 from .local import LocalCache, LocalModel, MapHypotheses, MapView, Preferences, local_model
 from .plan import Plan, policy_posterior
-from .policies import LShaped, MapGuided, PolicyGenerator
+from .policies import LShaped, MapGuided, Options, PolicyGenerator
 from .rollout import evaluate
 from .terms import KINDS, TERMS, Term
 
 LAST = 0.01
 """Weight that the last step of a plan has at least, however long it is: what is far is worth setting out for."""
+
+USUAL = Options()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,6 +31,8 @@ class Planner:
         policies: which action sequences are compared.
         terms: what their expected free energy is the sum of, any number, each with a name of its own.
         choice: which of them is followed.
+        explorer: how it explores where there are places never entered; None for one that goes by the above alone, as
+            any does whose policies, terms or choice are not the usual ones, unless it is given.
 
     Raises:
         CogmapError: a part is of another kind, or terms share a name.
@@ -37,12 +41,16 @@ class Planner:
     policies: PolicyGenerator = field(default_factory=MapGuided)
     terms: Sequence[Term] = TERMS
     choice: Choice = field(default_factory=Outward)
+    explorer: Options | None = field(default_factory=lambda: USUAL)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "terms", tuple(self.terms))
-        parts: list[tuple[str, Any, type]] = [
+        if self.explorer is USUAL and not self._usual:
+            object.__setattr__(self, "explorer", None)
+        parts: list[tuple[str, Any, Any]] = [
             ("policies", self.policies, PolicyGenerator),
             ("choice", self.choice, Choice),
+            ("explorer", self.explorer, Options | type(None)),
         ]
         for name, part, kind in (*parts, *(("terms", term, Term) for term in self.terms)):
             if not isinstance(part, kind):
@@ -59,6 +67,11 @@ class Planner:
                     f"planner: term {term.name} is of kind {term.kind!r} and sign {term.sign}; "
                     f"use one of {', '.join(KINDS)}, and 1.0 or -1.0"
                 )
+
+    @property
+    def _usual(self) -> bool:
+        """Whether it plans as any planner does that is given nothing."""
+        return isinstance(self.policies, MapGuided) and self.terms == TERMS and self.choice == Outward()
 
     @classmethod
     def paper(cls) -> Planner:
@@ -124,6 +137,7 @@ class Planner:
             cache=cache,
             beyond=self.policies.beyond,
             structure=structure,
+            explorer=None if self.explorer is None else self.explorer.found,
             unseen=unseen,
         )
         return self._decide(model, precision, rng)
@@ -138,16 +152,18 @@ class Planner:
         return self._decide(model, precision, rng)
 
     def _decide(self, model: LocalModel, precision: float, rng: np.random.Generator) -> Plan:
-        policies = self.policies.make(model)
+        explorer = self.explorer if model.frontier is not None else None
+        generator, terms, choice = self.policies, self.terms, self.choice
+        if explorer is not None:
+            generator, terms, choice = explorer, explorer.terms, explorer.choice
+        policies = generator.make(model)
         model = _in_sight(model, policies.actions.shape[1])
-        energy = evaluate(model, policies, self.terms)
+        energy = evaluate(model, policies, terms)
         G = energy.G
         probability = policy_posterior(G, precision=precision)
-        chosen = self.choice.choose(model, policies.actions, G, probability, rng)
+        chosen = choice.choose(model, policies.actions, G, probability, rng)
         action = int(policies.actions[chosen, 0])
-        return Plan(
-            model, policies.actions, energy, probability, chosen, action, policies.cut, self.policies, self.choice
-        )
+        return Plan(model, policies.actions, energy, probability, chosen, action, policies.cut, generator, choice)
 
 
 def _in_sight(model: LocalModel, length: int) -> LocalModel:

@@ -5,13 +5,10 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from types import FrameType
 from typing import Any
 
 from cogmap.agent import Agent
-
-ROOT = str(Path(__file__).parents[1])
 
 
 class Interrupt(BaseException):
@@ -32,8 +29,7 @@ def interrupted(work: Callable[[], object], line: int) -> int:
         return in_function
 
     def everywhere(frame: FrameType, event: str, arg: Any) -> Any:
-        name = frame.f_code.co_filename
-        return in_function if name.startswith(ROOT) and "/tests/" not in name and "/.venv/" not in name else None
+        return in_function if str(frame.f_globals.get("__name__")).startswith("cogmap.") else None
 
     sys.settrace(everywhere)
     try:

@@ -48,6 +48,22 @@ def test_a_torus_is_found_to_close_on_itself(seed: int) -> None:
     assert all(agent.map.position(place) is not None for place in agent.map.places)
 
 
+@pytest.mark.parametrize(
+    ("name", "seed", "at", "room", "steps"),
+    [
+        ("4x4_alias", 2, 6, (1, 3), 48),  # two places were only imagined, behind a door that was never there
+        ("donut", 3, 4, (0, 1), 40),  # a wall has another place behind it than the chart says
+        ("donut", 7, 3, (0, 0), 68),  # the first walk along a way was none
+    ],
+)
+def test_a_map_comes_right_after_a_move_into_a_room_never_seen(
+    name: str, seed: int, at: int, room: tuple[int, int], steps: int
+) -> None:
+    world = load_world(name)
+    agent = Agent(world.motions, seed=seed)
+    exact(agent, walked(world, agent, steps, seed=seed, moves={at: room}), world)
+
+
 def test_an_agent_that_is_moved_before_each_step_learns_that_it_is() -> None:
     """The map is then one of rooms apart, each what it is recognised as, and no larger for that."""
     world, rng = load_world("4x4"), np.random.default_rng(0)

@@ -136,7 +136,8 @@ def assert_record(agent: Agent, record: StepRecord, step: int, action: int, seen
     assert record.probability == plan.probability[plan.chosen]
     assert record.policies == len(plan.policies)
     terms = {name: value for name, value in record.G.items() if name != "G"}
-    signed = [value if name == "collision" else -value for name, value in terms.items()]
+    signs = {term.name: term.sign for term in record.terms}
+    signed = [signs[name] * value for name, value in terms.items()]
     assert record.G["G"] == pytest.approx(sum(signed), abs=1e-9)
     assert all(value >= -1e-9 for name, value in terms.items() if name != "utility")
     assert record.G["G"] <= plan.expected_free_energy.G.min() + Outward().slack  # one of the best was chosen

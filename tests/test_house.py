@@ -10,7 +10,7 @@ import networkx as nx
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-HOUSE = ("worlds", "model", "inference", "planning", "agent", "views", "baselines", "behaviour", "experiments")
+HOUSE = ("worlds", "model", "inference", "planning", "body", "agent", "views", "baselines", "behaviour", "experiments")
 
 
 def module_of(file: Path, root: Path) -> str:

@@ -16,7 +16,7 @@ import cogmap
 from cogmap import agent, worlds
 
 ROOT = Path(__file__).resolve().parents[1]
-HOUSE = ("worlds", "model", "inference", "planning", "agent", "views", "baselines", "behaviour", "experiments")
+HOUSE = ("worlds", "model", "inference", "planning", "body", "agent", "views", "baselines", "behaviour", "experiments")
 
 
 def test_every_package_is_declared() -> None:

@@ -16,6 +16,7 @@ from .map_plot import plot_map
 from .policy_plot import plot_policies, policy_paths
 from .recording import Recorder, Recording
 from .replay import replay_html
+from .showing import Shown, show
 from .terms_plot import plot_terms
 from .theme import (
     BLUE,
@@ -48,6 +49,7 @@ __all__ = [
     "MapPicture",
     "Recorder",
     "Recording",
+    "Shown",
     "Theme",
     "contrast",
     "explain",
@@ -68,6 +70,7 @@ __all__ = [
     "plot_world",
     "policy_paths",
     "replay_html",
+    "show",
     "sight_colour",
     "theme_of",
 ]

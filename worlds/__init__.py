@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from . import minigrid
 from .base import PlaceEnv
 from .behaviour import behaviour, distinguishable
 from .builtin import MAZES
-from .drawing import draw, label_colour
+from .colours import label_colour
+from .drawing import draw
 from .environment import MazeEnv
 from .errors import WorldError
 from .generate import comb, hall, office, random_maze, rings, spiral
@@ -68,6 +70,7 @@ __all__ = [
     "label_colour",
     "labyrinth",
     "load_world",
+    "minigrid",
     "offered",
     "office",
     "parse_maze",

@@ -75,11 +75,17 @@ def world_of(chart: Chart) -> PlaceEnv:
 
 
 def register_worlds() -> None:
-    """Register `cogmap/<name>-v0` for every built-in maze, and `cogmap/World-v0` for any file, once."""
+    """Register `cogmap/<name>-v0` for every built-in maze, and `cogmap/World-v0` for any file, once.
+
+    `cogmap/MiniGrid-<name>-v0` is the maze as an environment of MiniGrid, which is imported when one is made.
+    """
     ids = {f"cogmap/{name}-v0": {"name_or_path": name} for name in MAZES}
     for name, arguments in {**ids, "cogmap/World-v0": {}}.items():
         if name not in gym.registry:
             gym.register(name, entry_point="cogmap.worlds.load:load_world", kwargs=arguments)
+    for maze in MAZES:
+        if (name := f"cogmap/MiniGrid-{maze}-v0") not in gym.registry:
+            gym.register(name, entry_point="cogmap.worlds.minigrid:rooms_env", kwargs={"maze": maze})
 
 
 def _exists(path: Path) -> bool:

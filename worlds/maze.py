@@ -19,6 +19,7 @@ from .maze_checks import (
     checked_walls,
     unreachable,
 )
+from .maze_svg import maze_svg
 from .motions import GRID, Motions
 
 if TYPE_CHECKING:
@@ -150,3 +151,10 @@ class Maze:
         graph.add_nodes_from((room, {"sight": self.sights[room]}) for room in self.rooms)
         graph.add_edges_from(self.doors)
         return graph
+
+    def __repr__(self) -> str:
+        rows, columns = self.shape
+        return f"Maze({self.name!r}, {len(self.rooms)} rooms in {rows} x {columns}, {len(self.doors)} doors)"
+
+    def _repr_svg_(self) -> str | None:
+        return maze_svg(self.name, self.sights, self.doors)

@@ -62,3 +62,25 @@ class PerWay(spaces.Space[dict[Any, Any]]):
         if self.degrees:
             return all(isinstance(value, float) and np.isfinite(value) for value in x.values())
         return all(value is None or isinstance(value, bool) for value in x.values())
+
+
+class PerAction(spaces.Space[tuple[float | None, ...]]):
+    """A bearing for each action, None where it has no way.
+
+    Args:
+        actions: how many there are.
+    """
+
+    def __init__(self, actions: int) -> None:
+        super().__init__()
+        self.actions = actions
+
+    def sample(self, mask: Any = None, probability: Any = None) -> tuple[float | None, ...]:
+        """Bearings drawn evenly for some of the actions."""
+        drawn = self.np_random.uniform(0.0, 720.0, size=self.actions).tolist()
+        return tuple(value if value < 360.0 else None for value in drawn)
+
+    def contains(self, x: Any) -> bool:
+        """Whether `x` has a finite number or None for each action."""
+        listed = isinstance(x, tuple) and len(x) == self.actions  # pyright: ignore[reportUnknownArgumentType]
+        return listed and all(value is None or (isinstance(value, float) and np.isfinite(value)) for value in x)

@@ -13,6 +13,7 @@ from .errors import WorldError
 from .generate import at_least
 from .motions import Motions
 from .protocol import HasChart, Observation, World, offered
+from .spaces import PerAction
 
 
 class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):
@@ -46,8 +47,7 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
     """A world whose ways belong to the place, for agents whose actions are those of the whole world.
 
     Action 0 stays, action i takes the i-th way that is listed; a place with fewer ways has the others shut.
-    Observations have `open` instead of `ways`, and no bearings and displacements: what an action does differs from
-    place to place, so nobody can say which undoes which.
+    Observations have `open` instead of `ways`, and `bearings`, where they are told, list one an action, None of no way.
 
     Args:
         world: its `motions.local` is true.
@@ -64,11 +64,11 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
         most = max(len(chart.exits(place)) for place in chart.places)
         self.motions = Motions(("stay", *(f"way {i}" for i in range(1, most))))
         self.action_space = spaces.Discrete(most)
-        told = {"ways", "bearings", "displacement"}
         inner: Any = world.observation_space
-        sensed = {key: space for key, space in inner.spaces.items() if key not in told}
+        sensed = {key: space for key, space in inner.spaces.items() if key not in ("ways", "bearings")}
         self._sensed = {*sensed}
-        self.observation_space = spaces.Dict({**sensed, "open": spaces.MultiBinary(most)})
+        told: dict[str, spaces.Space[Any]] = {"bearings": PerAction(most)} if "bearings" in inner.spaces else {}
+        self.observation_space = spaces.Dict({**sensed, **told, "open": spaces.MultiBinary(most)})
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -93,7 +93,12 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
     def _listed(self, observation: Observation) -> Observation:
         seen = {key: value for key, value in observation.items() if key in self._sensed}
         ways = [True, *map(bool, observation["ways"].values())]
-        return {**seen, "open": np.array(ways + [False] * (len(self.motions.names) - len(ways)))}
+        none = len(self.motions.names) - len(ways)
+        seen["open"] = np.array(ways + [False] * none)
+        if "bearings" in observation:
+            told = observation["bearings"]
+            seen["bearings"] = (None, *(told.get(way) for way in observation["ways"]), *(None,) * none)
+        return seen
 
 
 class StateWorld(gym.Wrapper[Observation, Any, Any, Any]):

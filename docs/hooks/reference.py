@@ -15,7 +15,18 @@ from functools import cached_property
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = ("worlds", "model", "inference", "planning", "agent", "views", "baselines", "behaviour", "experiments")
+PACKAGES = (
+    "worlds",
+    "model",
+    "inference",
+    "planning",
+    "body",
+    "agent",
+    "views",
+    "baselines",
+    "behaviour",
+    "experiments",
+)
 NAME = re.compile(r"(?<!\[)`(cogmap(?:\.\w+){2,})`(?!\])")
 
 

@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import equations
 import reference
 import repository
 import running
@@ -59,7 +60,7 @@ def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: 
     if not uri.startswith(("examples/", "decisions/")):
         markdown, pictures = running.with_outcomes(markdown, uri)
         _add_pictures(pictures, uri, files, config)
-    return reference.with_links(markdown)
+    return equations.with_equations(reference.with_links(markdown), uri)
 
 
 def _add_pictures(pictures: dict[str, bytes], uri: str, files: Files, config: Any) -> None:

@@ -51,6 +51,8 @@ def explore_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    view: opt.View = None,
+    tiles: opt.Tiles = None,
     policies: opt.Policies = None,
     preset: opt.Preset = "cogmap",
     growth: Growth = "predicted",
@@ -71,7 +73,8 @@ def explore_command(
     from ...views import explore_figure
     from .walk_text import show_walk
 
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    lower: Any = {"view": view, "tiles": tiles}
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
     options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine, "pose": pose}
     every = [lab.Parts.named(agent, preset=preset, growth=name, **options) for name in names]

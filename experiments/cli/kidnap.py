@@ -25,6 +25,9 @@ def kidnap_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    view: opt.View = None,
+    tiles: opt.Tiles = None,
+    turned: opt.Turned = False,
     json: opt.Json = None,
 ) -> None:
     """Explore a maze, then be moved to another room without a word: how soon does the agent know where it is?
@@ -33,7 +36,8 @@ def kidnap_command(
     """
     from .. import Parts, chart_of, check_kidnap, check_outputs, kidnap_many, kidnap_result, workers, write_json
 
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    lower: Any = {"view": view, "tiles": tiles, "turned": turned}
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
     parts = Parts.named(preset=preset, policies=policies, look_ahead=look_ahead, pose=pose)
     options: Any = {"agent": parts, "max_steps": max_steps}
     check_kidnap(place)

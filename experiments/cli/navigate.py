@@ -38,6 +38,9 @@ def navigate_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    view: opt.View = None,
+    tiles: opt.Tiles = None,
+    turned: opt.Turned = False,
     json: opt.Json = None,
     trace: opt.Trace = None,
 ) -> None:
@@ -49,7 +52,8 @@ def navigate_command(
     from .tracing import Tracing, check_trace
 
     check_trace(agent, trace)
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed)
+    lower: Any = {"view": view, "tiles": tiles, "turned": turned, "goal": goal}
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
     label, name, many = lab.parse_goal(place, goal), lab.chart_of(place).name, runs or 1
     task: Any = {"weight": weight, "closed": [_room(text) for text in close or ()], "known": not unexplored}
     lab.check_goal(place, label, **task)

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-World = Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, or a maze or graph file.")]
+World = Annotated[str, typer.Argument(metavar="WORLD", help="A built-in name, a maze or graph file, or minigrid:MAZE.")]
 Sights = Annotated[
     str | None,
     typer.Option(
@@ -20,7 +20,8 @@ Noise = Annotated[
     list[str] | None,
     typer.Option(
         metavar="KIND=RATE",
-        help="What goes wrong, how often: sight, door, slip, fail or moved (odometry, heading: by how much). Several.",
+        help="What goes wrong, how often: sight, door, slip, fail or moved (odometry, heading: by how much); "
+        "of a body in MiniGrid pixels, gain or slips. Several.",
     ),
 ]
 Pose = Annotated[
@@ -63,13 +64,49 @@ Trace = Annotated[
 ]
 
 
-def world_of(name: str, *, noise: Sequence[str] | None, sights: str | None, format: str, seed: int) -> Any:
+View = Annotated[
+    str | None, typer.Option(metavar="NAME", help="Of a world of MiniGrid: symbolic (what it is unless given) or rgb.")
+]
+Tiles = Annotated[
+    str | None,
+    typer.Option(metavar="N or N-M", help="Of a world minigrid:MAZE: tiles a side of a room; 4 unless given."),
+]
+Turned = Annotated[
+    bool, typer.Option("--turned", help="In a world of MiniGrid: a silent move turns the body, to a random heading.")
+]
+
+MINIGRID = "minigrid:"
+"""What the names of room mazes in MiniGrid begin with."""
+
+
+def world_of(
+    name: str,
+    *,
+    noise: Sequence[str] | None,
+    sights: str | None,
+    format: str,
+    seed: int,
+    view: str | None = None,
+    tiles: str | None = None,
+    turned: bool = False,
+    goal: str | None = None,
+) -> Any:
     """The world of these options."""
+    from ...model import CogmapError
     from ...worlds import NoisyWorld, load_world
 
     rates = _rates(noise or ())
     given: Any = int(sights) if sights is not None and sights.isascii() and sights.isdecimal() else sights
-    world = load_world(name, format=format, sights=given, seed=seed)
+    if name.startswith(MINIGRID):
+        from ...body import BODILY, load_embodied
+
+        of_body = {kind: rates.pop(kind) for kind in BODILY if kind in rates}
+        how: Any = {"view": view, "tiles": tiles, "turned": turned, "noise": of_body, "white": goal == "white"}
+        world = load_embodied(name.removeprefix(MINIGRID), format=format, sights=given, seed=seed, **how)
+    elif view is not None or tiles is not None or turned:
+        raise CogmapError(f"--view, --tiles and --turned are for worlds of MiniGrid, such as {MINIGRID}3x3, not {name}")
+    else:
+        world = load_world(name, format=format, sights=given, seed=seed)
     return NoisyWorld(world, **rates) if rates else world
 
 

@@ -73,7 +73,7 @@ def doubted(h: Hypothesis, number: int, history: History) -> set[int]:
     found, queue = {number}, [number]
     for one in queue:
         for way in h.places[one].ways:
-            if way.to != NOWHERE and way.to not in found and _seldom(h, way.to, history):
+            if way.to != NOWHERE and way.net >= 0.0 and way.to not in found and _seldom(h, way.to, history):
                 found.add(way.to)
                 queue.append(way.to)
     return found if h.here not in found and len(found) < h.size else set()
@@ -208,9 +208,9 @@ def _seldom(h: Hypothesis, number: int, history: History) -> bool:
 
 
 def _misfit(h: Hypothesis, number: int) -> bool:
-    """Whether nothing leads to the place, or one of its ways contradicts the place it leads to or the chart."""
+    """Whether no open way leads to the place, or one of its ways contradicts the place it leads to or the chart."""
     place = h.places[number]
-    if not place.into:
+    if all(h.places[source].ways[by].net < 0.0 for source, by in place.into):
         return number != 0  # the walk began somewhere
     for index, way in enumerate(place.ways):
         if way.to == NOWHERE:

@@ -1,7 +1,8 @@
-"""Links that never were: a walk off the chart was a silent move, where the other side confirms the chart."""
+"""Links that never were: a way that was walked once led elsewhere than was thought, and the agent was moved besides."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from math import log
 
 from .extending import shared, unlink, with_way
@@ -10,22 +11,43 @@ from .rates import ELSEWHERE, MOVED, UNDONE
 from .records import NOWHERE, Place, Way
 from .weighing import rate_gain
 
+Counts = Mapping[int, tuple[float, float]]
+"""Of each rate, how much oftener it was found true, and false."""
+
 
 def straightened(h: Hypothesis, number: int, *, floor: float) -> Hypothesis | None:
-    """The hypothesis in which a way of a place leads where its chart says; None where that is below `floor`.
+    """The hypothesis in which a way of a place that was walked once leads elsewhere; None where that is below `floor`.
 
-    Such a way was walked once, to another place than that beside it, from which it was walked back to here.
+    It leads where the chart says, if the way back from there was walked; or to where a walk came from whose way back it
+    is. On the one walk the agent was moved.
     """
     place = h.places[number]
     for index, way in enumerate(place.ways):
-        beside = _beside(h, number, place, index) if way.walks == 1 else NOWHERE
-        if beside in (NOWHERE, way.to):
+        if way.walks != 1 or h.scheme.inverse is None:
             continue
-        gain = rate_gain(h, MOVED, 1.0, -1.0) + rate_gain(h, ELSEWHERE, -1.0, 1.0) + rate_gain(h, UNDONE, 1.0, -1.0)
-        gain += log((h.size + 1.0) / h.size)
-        if h.weight + gain >= floor:
-            return _cut(h, number, index, beside, gain)
+        for to, counts, cost in _others(h, number, place, index):
+            gain = sum(rate_gain(h, rate, *more) for rate, more in counts.items()) - cost
+            if h.weight + gain >= floor:
+                return _cut(h, number, index, to, gain, counts)
     return None
+
+
+def _others(h: Hypothesis, number: int, place: Place, index: int) -> Iterator[tuple[int, Counts, float]]:
+    """(place, counts, nats besides) of where else a way may lead."""
+    way, beside = place.ways[index], _beside(h, number, place, index)
+    if beside not in (NOWHERE, way.to):
+        yield (
+            beside,
+            {MOVED: (1.0, -1.0), ELSEWHERE: (-1.0, 1.0), UNDONE: (1.0, -1.0)},
+            log(h.size / (h.size + 1.0)),
+        )
+        return
+    assert h.scheme.inverse is not None
+    back = h.places[way.to].ways[h.scheme.inverse[index]]
+    sources = sorted(source for source, by in place.into if h.scheme.inverse[by] == index and source != way.to)
+    crooked = len(sources) + (back.walks > 0 and back.to != number)
+    for source in sources:
+        yield source, {MOVED: (1.0, -1.0), UNDONE: (0.0, -float(crooked))}, log(2.0)
 
 
 def _beside(h: Hypothesis, number: int, place: Place, index: int) -> int:
@@ -37,15 +59,15 @@ def _beside(h: Hypothesis, number: int, place: Place, index: int) -> int:
     return beside if back.walks and back.to == number else NOWHERE
 
 
-def _cut(h: Hypothesis, number: int, index: int, beside: int, gain: float) -> Hypothesis:
+def _cut(h: Hypothesis, number: int, index: int, to: int, gain: float, counts: Counts) -> Hypothesis:
     other = h.fork()
     other.weight = h.weight + gain
     way = other.places[number].ways[index]
     unlink(other, number, index, way)
-    place = with_way(other.places[number], index, Way(way.net, way.open, way.blocked, 0, beside))
+    place = with_way(other.places[number], index, Way(way.net, way.open, way.blocked, 0, to))
     other.put(number, shared(other, number, place))
     other.links -= 1
-    for rate, yes, no in ((MOVED, 1.0, -1.0), (ELSEWHERE, -1.0, 1.0), (UNDONE, 1.0, -1.0)):
+    for rate, (yes, no) in counts.items():
         other.counts.yes[rate] = max(other.counts.yes[rate] + yes, 0.0)
         other.counts.no[rate] = max(other.counts.no[rate] + no, 0.0)
     return other

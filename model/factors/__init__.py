@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from .base import Context, ModelFactor, Successors, Support, Table, parts_of
+from .bearings import Bearings
 from .displacement import Displacement
 from .features import Features
-from .pose import POSES, Ahead, Lattice, NoPose, Pose
+from .pose import POSES, Ahead, Lattice, NoPose, Plane, Pose
 from .sensor import Sensor
 from .sight import Sight
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 from .ways import Ways
 
-SENSORS: dict[str, type[Sensor]] = {"sight": Sight, "features": Features, "ways": Ways}
+SENSORS: dict[str, type[Sensor]] = {"sight": Sight, "features": Features, "ways": Ways, "bearings": Bearings}
 """Kinds of sensors by name."""
 
 __all__ = [
@@ -22,12 +23,14 @@ __all__ = [
     "SENSORS",
     "UNKNOWN",
     "Ahead",
+    "Bearings",
     "Context",
     "Displacement",
     "Features",
     "Lattice",
     "ModelFactor",
     "NoPose",
+    "Plane",
     "Pose",
     "Sensor",
     "Sight",

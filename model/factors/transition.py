@@ -219,7 +219,8 @@ class Transition(ModelFactor):
         if beyond is None:
             return
         self.add(beyond, place, action, weight * forward)
-        if changed and (inverse := self.motions.inverse[action]) >= 0:
+        inverse = self.motions.inverse[action]
+        if changed and inverse >= 0 and self.beyond(beyond, inverse) in (None, place):  # else it is another door
             self.raise_to(beyond, beyond, inverse, -weight * reverse)
             self.add(place, beyond, inverse, weight * reverse)
 

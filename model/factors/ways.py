@@ -24,19 +24,24 @@ class Ways(Sensor):
     That is one reading an action, in a list, an array (masked where not looked at) or a mapping by name: true, false,
     P(open), or None where it was not looked at.
 
+    Args:
+        learned: whether a way of a place never entered is as often open as that action was in the others; else it is
+            as likely open as not, however many ways a place may have.
+
     c(s) = product over the actions of P(blocked | s, a), or one minus it; P(blocked | s, a) is B_s[s, s, a].
     """
 
     kind = "walls"
 
-    def __init__(self) -> None:
+    def __init__(self, *, learned: bool = False) -> None:
         super().__init__("open")
         self.symbol = self.variable = "c"
+        self._learned = learned
 
     @property
     def options(self) -> dict[str, Any]:
-        """None."""
-        return {}
+        """Whether the rates of ways are learned."""
+        return {"learned": True} if self._learned else {}
 
     def join(self, context: Context, transitions: Transition) -> None:
         """Make it part of a model; what is sensed of its ways is learned by its transitions."""
@@ -59,6 +64,8 @@ class Ways(Sensor):
     def _each(self, places: Ints, reading: Looks) -> Floats:
         """`[n, K]` of each door by itself: r P(open) + (1 - r) P(blocked); one where it was not looked at."""
         p = self._transitions.blocked(places)
+        if self._learned:
+            p[~self.context.visits.visited.values[places]] = self._blocked()
         np.subtract(1.0, p, out=p, where=np.array([way == 1 for way in reading]))
         for action, way in enumerate(reading):
             if way is None:
@@ -68,8 +75,18 @@ class Ways(Sensor):
         p[:, self._motions.stay] = 1.0
         return p
 
+    def _blocked(self) -> Floats:
+        """`[K]` how often each action was found blocked in a new place."""
+        sensed = self._transitions.sensed.values[self.context.visits.order.values]
+        blocked, opened = (sensed == BLOCKED).sum(axis=0), (sensed == OPEN).sum(axis=0)
+        return (blocked + 0.5) / (blocked + opened + 1.0)
+
     def log_predictive(self, reading: Looks) -> float:
-        """A way is as likely open as not."""
+        """A way is as likely open as not, or as often as it was."""
+        if self._learned:
+            p = self._blocked()
+            looked = [(p[a] if way < 0.5 else 1.0 - p[a]) for a, way in enumerate(reading) if way is not None]
+            return float(np.log(looked).sum() - np.log(1.0 - p[self._motions.stay]))
         return (sum(way is not None for way in reading) - 1) * log(0.5)
 
     def learn(self, place: int, reading: Looks, weight: float, *, one_way: Collection[int] = ()) -> None:

@@ -12,7 +12,6 @@ from .tables import LabelledTable, table
 
 if TYPE_CHECKING:
     import networkx as nx
-    from pandas import DataFrame
 
 
 class FactorGraph(GraphStructure):
@@ -55,7 +54,7 @@ class FactorGraph(GraphStructure):
     def __eq__(self, other: object) -> bool:
         return self.same_as(other) if isinstance(other, FactorGraph) else NotImplemented
 
-    def table(self, name: str) -> DataFrame | LabelledTable:
+    def table(self, name: str) -> LabelledTable:
         """The values of the factor with that label or name, with labels on both axes; see `tables.table`."""
         return table(self.factor_named(name))
 

@@ -1,4 +1,4 @@
-"""Tables with labels on both axes: as pandas frames where pandas is installed, and as plain text without it."""
+"""Tables with labels on both axes: plain text, HTML in notebooks, and pandas frames where they are asked for."""
 
 from __future__ import annotations
 
@@ -142,18 +142,13 @@ def labelled(item: Factor | ConditionalTable) -> LabelledTable:
     raise CogmapError(f"table: cannot show a {kind}; give a factor, such as graph.factor_named('A'), or its table")
 
 
-def table(item: Factor | ConditionalTable | LabelledTable) -> DataFrame | LabelledTable:
-    """`labelled` as a pandas DataFrame if pandas is installed, else as a `LabelledTable`, whose `str` is aligned text.
+def table(item: Factor | ConditionalTable | LabelledTable) -> LabelledTable:
+    """`labelled`, of a table the table itself; `to_pandas()` makes a frame of it.
 
     Raises:
         CogmapError: it is no factor and no table.
     """
-    shown_ = item if isinstance(item, LabelledTable) else labelled(item)
-    try:
-        import pandas as _  # noqa: F401
-    except ImportError:
-        return shown_
-    return shown_.to_pandas()
+    return item if isinstance(item, LabelledTable) else labelled(item)
 
 
 def _laid_out(

@@ -2,6 +2,7 @@
 
 from .cache import LocalCache
 from .cut import Surroundings, local_model
+from .frontier import Frontier
 from .model import LocalModel
 from .preferences import Preferences
 from .structure import MapHypotheses, State, Structure
@@ -9,6 +10,7 @@ from .transitions import Transitions
 from .view import MapView
 
 __all__ = [
+    "Frontier",
     "LocalCache",
     "LocalModel",
     "MapHypotheses",

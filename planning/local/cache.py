@@ -14,6 +14,7 @@ from .kept import Kept
 from .rows import Rows
 from .transitions import Floats, Ints, Transitions, likeliest
 from .view import MapView
+from .where import Where
 
 CUTS = 64
 """Cuts of the map that are kept, at most."""
@@ -95,6 +96,7 @@ class LocalCache:
     Attributes:
         links: how often it has changed where a way most probably leads.
         found: what a search of the map found last, for the next one to go on from.
+        where: where its places are.
         untried: the most that a step along a way teaches, by place, where that is anything.
     """
 
@@ -111,6 +113,7 @@ class LocalCache:
         "links",
         "untried",
         "visits",
+        "where",
     )
 
     def __init__(self, map_: MapView, visits: int) -> None:
@@ -124,6 +127,7 @@ class LocalCache:
         self._unseen: Floats | None = None
         self.links = 0
         self.found: Any = None
+        self.where = Where(map_)
         self.untried: dict[int, float] = {}
 
     def check(self, map_: MapView, look_ahead: int) -> None:
@@ -232,7 +236,7 @@ class LocalCache:
     def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         map_, steps = self._map, self.visits
         told = (sensor.information(places, steps) for sensor in map_.sights_sensed)
-        unknown = (np.nan,) * len(map_.motions.displacements[0])
+        unknown = (np.nan,) * map_.pose.dimensions
         positions = [unknown if (at := map_.position(place)) is None else at for place in places.tolist()]
         position = np.array(positions, dtype=np.float64).reshape(len(places), -1)
         return map_.pose.information(places, steps), position, sum(told, np.zeros((len(places), steps + 1)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
 from .cache import Cut, LocalCache, WayRows
 from .dormant import leave_out_dormant
+from .frontier import Frontier
 from .kept import Kept
 from .model import Floats, Ints, LocalModel
 from .preferences import Preferences
@@ -18,6 +19,8 @@ from .structure import MapHypotheses, Structure
 from .transitions import Transitions, likeliest
 from .view import MapView
 
+SURE = 0.5
+"""Belief in one place from which on an agent explores by options from there."""
 HOPE = 0.4
 """P(a way that is worth a try leads beyond) from which on plans count on it."""
 
@@ -80,13 +83,15 @@ def local_model(
     cache: LocalCache | None = None,
     beyond: Callable[[Surroundings], Ints] = nothing_beyond,
     structure: MapHypotheses | None = None,
+    explorer: Callable[[Surroundings], Frontier | None] | None = None,
     unseen: Sequence[bool] = (),
 ) -> LocalModel:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
-    Everything within `look_ahead` steps is in it, and what `beyond` asks for. Of a belief over more than `starts`
-    places the likeliest remain (see `LocalModel.dropped`). What a `cache` of the map has kept from the last step is not
-    worked out again. Of the ways of actions that are `unseen`, no sensor tells: a step along one does.
+    Everything within `look_ahead` steps is in it, and what `beyond` asks for; or, where an `explorer` answers with
+    options, the ways to them, undiscounted. Of a belief over more than `starts` places the likeliest remain (see
+    `LocalModel.dropped`). What a `cache` of the map has kept from the last step is not worked out again. Of the ways of
+    actions that are `unseen`, no sensor tells: a step along one does.
 
     Raises:
         CogmapError: the cache is of another map or tells of fewer visits than `look_ahead`, `starts` is below one, or
@@ -99,9 +104,15 @@ def local_model(
     cache.refresh()
     preferences = preferences or Preferences()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
-    near = cache.within(places, look_ahead)
-    apart = Structure.of(structure)
-    far = beyond(Surroundings(map_, cache, places, near, preferences, open_, look_ahead, apart, unseen))
+    apart, frontier = Structure.of(structure), None
+    around = Surroundings(map_, cache, places, places[:0], preferences, open_, look_ahead, apart, unseen)
+    if explorer is not None and belief.max() >= SURE:
+        frontier = explorer(replace(around, starts=places[[belief.argmax()]]))
+    if frontier is not None:
+        near, far, discount = cache.within(places, 1), np.array(frontier.places, dtype=np.int64), 1.0
+    else:
+        near = cache.within(places, look_ahead)
+        far = beyond(replace(around, near=near))
     within = np.union1d(near, far) if len(far) else near
     key = places.tobytes(), within.tobytes(), tuple(open_), tuple(unseen)
     cut = cache.cut(key, partial(_cut, map_, cache, places, within, open_, unseen))
@@ -136,6 +147,7 @@ def local_model(
         information_weight=information_weight,
         dropped=dropped,
         structure=apart,
+        frontier=frontier,
         kept=cut.kept,
         untried=cut.untried,
     )

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model import CogmapError, Motions
+from .frontier import Frontier
 from .kept import Kept
 from .structure import Structure
 from .transitions import Transitions
@@ -49,6 +50,7 @@ class LocalModel:
         information_weight: weight of every information gain beside utility and costs, 0 or more.
         dropped: belief in places that were left out, before `belief` was made to sum to one again.
         structure: hypotheses about the map, side by side; None where there is but one.
+        frontier: the options of an agent that explores by them; None for others.
         untried: `[R, K]` nats that the first step along each way teaches, where no visit has told whether it is open;
             None where that is nothing.
         kept: what was worked out of places, B, blocked, successor and entered alone, for models that share them.
@@ -73,6 +75,7 @@ class LocalModel:
     information_weight: float = 1.0
     dropped: float = 0.0
     structure: Structure | None = None
+    frontier: Frontier | None = None
     kept: Kept | None = field(default=None, repr=False, compare=False)
     untried: Floats | None = None
 
@@ -138,13 +141,14 @@ class LocalModel:
 
     def _check_shapes(self) -> None:
         R, K, O = len(self.belief), len(self.motions), len(self.multiplicity)  # noqa: E741
+        axes = len(self.motions.displacements[0]) if self.motions.placed else self.position.shape[-1]
         N, slots = max(self.look_ahead, 0), self.B.successors.shape[-1]
         _need(self.look_ahead >= 1, f"look_ahead is {self.look_ahead}", "1 or more steps")
         shapes = {
             "A": (O, R),
             "log_C": (O,),
             "successor": (R, K),
-            "position": (R, len(self.motions.displacements[0])),
+            "position": (R, axes),
             "blocked": (R, K),
             **dict.fromkeys(("places", "log_C_place", "entered"), (R,)),
             **({} if self.untried is None else {"untried": (R, K)}),

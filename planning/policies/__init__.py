@@ -4,6 +4,7 @@ from .base import MAX_LOOK_AHEAD, MAX_POLICIES, Policies, PolicyGenerator
 from .exhaustive import Exhaustive
 from .l_shaped import LShaped
 from .map_guided import MapGuided
+from .options import Options
 from .self_avoiding import SelfAvoiding
 
 POLICIES: dict[str, type[PolicyGenerator]] = {
@@ -18,6 +19,7 @@ __all__ = [
     "Exhaustive",
     "LShaped",
     "MapGuided",
+    "Options",
     "Policies",
     "PolicyGenerator",
     "SelfAvoiding",

@@ -11,6 +11,8 @@ from .state_information import StateInformation
 from .structure_information import StructureInformation
 from .transition_information import TransitionInformation
 from .utility import Utility
+from .way_back import WayBack
+from .way_there import WayThere
 
 TERMS: tuple[Term, ...] = (
     StateInformation(),
@@ -38,4 +40,6 @@ __all__ = [
     "Term",
     "TransitionInformation",
     "Utility",
+    "WayBack",
+    "WayThere",
 ]

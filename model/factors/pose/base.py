@@ -3,17 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
+from typing import Any, Protocol
 
 from ...dirichlet import SparseDirichlet
 from ...domain import Domain
-from ...motions import Position
+from ...motions import Motions, Position
 from ...percept import Percept
 from ...periods import Periods
+from ...visits import Visits
 from ..base import Floats, Ints, ModelFactor
+from ..transition import Transition
 
 Ahead = Sequence[tuple[Ints, float, float]]
 """Poses `[n]` that an action may lead to from `n` poses, -1 where there is none; their probability; and the likelihood
 of what was measured of the move, up to a factor that is the same for all."""
+
+
+class Growing(Protocol):
+    """What a pose needs of the model that it is part of, to have ways lead where they were measured to."""
+
+    motions: Motions
+    sensors: Any
+    transitions: Transition
+    visits: Visits
+
+    def new_place(self, position: Position | None = None, *, step: int) -> int:
+        """Append a place."""
+        ...
 
 
 class Pose(ModelFactor):
@@ -25,12 +41,25 @@ class Pose(ModelFactor):
         positions: their labels.
         table: counts of P(p | s), a row a place.
         periods: that positions repeat with; none unless a pose knows better.
+        settles: whether it follows from the pose alone which place is which, so that no hypotheses are weighed.
     """
+
+    settles = False
 
     name = "pose"
     positions: Domain
     table: SparseDirichlet
     periods: Periods = ()
+
+    @property
+    def dimensions(self) -> int:
+        """Numbers in a position."""
+        return len(self.context.motions.displacements[0])
+
+    @property
+    def longest(self) -> float:
+        """The longest step so far, in the unit of positions."""
+        return 1.0
 
     @property
     def origin(self) -> Position | None:
@@ -94,6 +123,23 @@ class Pose(ModelFactor):
         return ()
 
     # -- learning ------------------------------------------------------------------------------------------
+
+    def imagine(self, place: int, source: int, action: int) -> None:
+        """A place of which no position is known was imagined behind a way."""
+
+    def arrive(self, model: Growing, place: int, percept: Percept, *, step: int) -> None:
+        """Before inference: a way was walked from `place`; have it lead where it was measured to lead."""
+
+    def look(self, model: Growing, place: int, percept: Percept, *, step: int) -> None:
+        """After inference, where the agent is certain: it is in `place`, and senses its ways."""
+
+    def guessed(self, ways: Transition) -> Sequence[tuple[int, int, float]]:
+        """Place and action of the ways never walked that are only thought to lead where they do; and a doubt."""
+        return ()
+
+    def steps_in(self, place: int) -> tuple[int, ...]:
+        """The last steps at which the agent was in a place, where the pose keeps them."""
+        return ()
 
     def learn(self, place: int, weight: float) -> None:
         """The agent was in `place`, as far as it is certain (`weight`)."""

@@ -1,0 +1,42 @@
+"""Lower levels: from pixels to percepts, from ways to low-level actions."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from .loading import BODILY, load_embodied
+from .protocol import OUTCOMES, Body, Percept
+
+if TYPE_CHECKING:
+    from .eyes import Eyes, View
+    from .minigrid import MiniGridBody
+    from .world import GOAL, EmbodiedWorld, embodied
+
+__all__ = [
+    "BODILY",
+    "GOAL",
+    "OUTCOMES",
+    "Body",
+    "EmbodiedWorld",
+    "Eyes",
+    "MiniGridBody",
+    "Percept",
+    "View",
+    "embodied",
+    "load_embodied",
+]
+
+_HEAVY = ("eyes", "minigrid", "world")
+
+
+def __getattr__(name: str) -> Any:
+    if name in __all__:
+        from ..worlds import minigrid as mg
+
+        mg.need_minigrid()
+        for module in _HEAVY:
+            found = vars(import_module(f".{module}", __name__))
+            if name in found:
+                return found[name]
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

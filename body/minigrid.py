@@ -1,0 +1,279 @@
+"""A body for MiniGrid: it sees seven by seven tiles, and finds its way through rooms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..worlds import minigrid as mg
+from .eyes import DOUBT, Eyes
+from .outlook import Outlook, Sizes, outlook, viewpoint
+from .protocol import Percept
+from .room_map import CENTRE, Pose, RoomMap, around
+from .routes import distances, route
+from .vocabulary import vocabulary
+from .whereabouts import NOTHING, SURE, TOGGLE, Whereabouts, moved
+
+UP = 3
+"""The way a body faces where it wakes up, whatever that is in the world."""
+_LOOKS, _TRIES = 40, 400
+_PASSAGE = 5.0  # tiles that a passage is expected to have before any was walked
+
+
+class Limbs(Protocol):
+    """What a body drives: anything with `step`."""
+
+    def step(self, action: Any, /) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        """Take a low-level action."""
+        ...
+
+
+class MiniGridBody:
+    """Goes from room to room in any MiniGrid world, by the view alone: no compass, no true state, no grid.
+
+    Rooms are chunks of space bounded by doors and gaps. Ways are the four directions of a frame of its own, in which
+    it faced up where it woke.
+
+    Args:
+        limbs: what it drives.
+        glance: low-level steps that looking at walls which it has not seen may cost where it arrives.
+
+    Attributes:
+        steps: low-level steps taken.
+        ended: whether the world has ended the episode.
+        reward: the sum of what it was given.
+    """
+
+    def __init__(self, limbs: Limbs, *, glance: int = 0) -> None:
+        self._limbs, self._glance = limbs, glance
+        self._eyes, self._known, self._sizes = Eyes(), RoomMap(), Sizes()
+        self._where = Whereabouts((CENTRE, CENTRE, UP))
+        self._seed: mg.Tile = (CENTRE, CENTRE)
+        self._given_up: set[mg.Tile] = set()
+        self._far, self._walked = _PASSAGE, 1
+        self.steps, self.ended, self.reward = 0, False, 0.0
+        self._confused = False
+
+    @property
+    def pose(self) -> Pose:
+        """Where it takes itself to be in its room, in its own frame."""
+        return self._where.pose
+
+    @property
+    def slip(self) -> float:
+        """How often its actions go astray, as it has learned."""
+        return self._where.slip
+
+    @property
+    def lost(self) -> bool:
+        """Whether what it saw last fits nothing that it expected."""
+        return self._confused
+
+    def begin(self, observation: Any) -> None:
+        """Open the eyes in a new world, of which nothing is known; the frame begins with where it faces."""
+        self._known.clear()
+        self._sizes = Sizes()
+        self._where = Whereabouts((CENTRE, CENTRE, UP))
+        self.steps, self.ended, self.reward = 0, False, 0.0
+        self._anew(observation)
+
+    def glimpse(self, observation: Any) -> None:
+        """See again without having moved; where nothing fits, it is lost."""
+        self._sense(NOTHING, observation)
+
+    def wake(self) -> Percept:
+        """Look round once, at all walls."""
+        begin = self.steps
+        self._look(range(4))
+        return self._percept(None, begin)
+
+    def look(self, ways: Iterable[int]) -> Percept:
+        """Look at these ways."""
+        begin = self.steps
+        self._look(ways)
+        return self._percept("unsure" if self._confused else None, begin)
+
+    def perform(self, way: int, *, budget: int | None = None) -> Percept:
+        """Go through the way in that direction, in `budget` low-level steps at most: look for it, if need be."""
+        begin, limit = self.steps, self.steps + (_TRIES if budget is None else budget)
+        self._look([way])
+        outcome = "unsure" if self._confused else self._through(way, limit)
+        if outcome == "arrived":
+            self._arrive(self.steps - begin)
+        return self._percept(outcome, begin)
+
+    def settle(self, floor: int) -> Percept:
+        """Stay: look at what was not looked at, or stand on the tile of floor `floor`, if this room has one."""
+        begin = self.steps
+        aims = {tile for tile in self._outlook().room if self._known.floor(tile) == floor}
+        while aims and self.pose[:2] not in aims and not (self.ended or self._confused) and self.steps < begin + _TRIES:
+            plan = route(self.pose, self._known, aims, within=self._outlook().room)
+            if not plan:
+                break
+            self._act(plan[0])
+        return self.look(range(4)) if not aims else self._percept("unsure" if self._confused else None, begin)
+
+    def cost(self, way: int) -> float:
+        """Low-level steps that the way is expected to take: over the floor, and a passage like those it has walked."""
+        now = self._outlook()
+        exits = set(now.exits[way])
+        steps = distances(self.pose, self._known, now.room)
+        near = [n for (x, y, h), n in steps.items() if h == way and (x + mg.AHEAD[h][0], y + mg.AHEAD[h][1]) in exits]
+        turns = min((way - self.pose[2]) % 4, (self.pose[2] - way) % 4)
+        return (min(near) if near else turns) + self._far
+
+    # -- what is seen --------------------------------------------------------------------------------------
+
+    def _outlook(self) -> Outlook:
+        return outlook(self._known, self._seed, self._sizes, self._given_up)
+
+    def _percept(self, outcome: str | None, begin: int) -> Percept:
+        if self._confused:  # what it knew is of somewhere else
+            self._confused = False
+            self._look(range(4))
+        now = self._outlook()
+        if now.whole:
+            self._sizes.learn(now.room)
+        ways: dict[int, bool | None] = {
+            way: True if now.exits[way] else None if now.needed[way] else False for way in range(4)
+        }
+        return Percept(self._sight(now), ways, outcome, self.steps - begin)
+
+    def _sight(self, now: Outlook) -> int | dict[int, float] | None:
+        """The colour of the floor: a number where there is no doubt, else likelihoods; None without a coloured floor.
+
+        A white tile is what a room is known by.
+        """
+        words = vocabulary()
+        if any(self._known.floor(tile) == mg.WHITE for tile in now.room):
+            return mg.WHITE
+        evidence = self._known.evidence(now.room)
+        floors = np.flatnonzero(words.floor[:-1] >= 0)
+        worth = evidence[floors] - evidence[floors].max()
+        if not any(self._known.floor(tile) >= 0 for tile in now.room):
+            return None
+        if np.sort(worth)[-2] <= -DOUBT:
+            return int(words.floor[floors[worth.argmax()]])
+        return {int(words.floor[i]): float(np.exp(w)) for i, w in zip(floors, worth, strict=True) if w > -DOUBT}
+
+    def _look(self, ways: Iterable[int]) -> None:
+        """Turn and walk until each of the ways is seen open, or surely is none; give up what cannot be seen."""
+        ways = list(ways)
+        for _ in range(_LOOKS):
+            now = self._outlook()
+            targets = frozenset[mg.Tile]().union(*(now.needed[way] for way in ways))
+            if not targets or self.ended or self._confused:
+                return
+            steps = distances(self.pose, self._known, now.room)
+            spot = viewpoint(steps, targets)
+            if spot is None or spot[1] == 0:  # they are in view, and yet not seen
+                self._given_up |= targets if spot is None else self._in_view(targets)
+                continue
+            plan = route(self.pose, self._known, [spot[0]], within=now.room)
+            self._act(plan[0] if plan else NOTHING)
+
+    def _in_view(self, targets: Iterable[mg.Tile]) -> set[mg.Tile]:
+        return {tile for tile in targets if viewpoint({self.pose: 0}, [tile]) is not None}
+
+    # -- what is done --------------------------------------------------------------------------------------
+
+    def _act(self, action: int) -> None:
+        observation, reward, terminated, truncated, _ = self._limbs.step(action)
+        self.steps += 1
+        self.reward += float(reward)
+        self.ended = self.ended or terminated or truncated
+        if action == TOGGLE:
+            x, y, heading = self.pose
+            self._known.unlearn((x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]))
+        self._sense(action, observation)
+
+    def _sense(self, action: int, observation: Any) -> None:
+        view = self._eyes.look(observation["image"])
+        meant = moved(self.pose, action, self._known)
+        self._where.update(action, view, self._known)
+        if self._where.lost:
+            self._where.set(meant)  # which way it faces may be the same still
+            self._anew(observation)
+            self._confused = True
+        elif self._where.certainty >= SURE:
+            self._known.add(self.pose, view)
+
+    def _anew(self, observation: Any) -> None:
+        """Nothing is known of where it is; it takes itself to face where it faced."""
+        self._known.clear()
+        self._given_up.clear()
+        self._seed = (CENTRE, CENTRE)
+        self._where.set((CENTRE, CENTRE, self.pose[2]))
+        self._known.add(self.pose, self._eyes.look(observation["image"]))
+        self._confused = False
+
+    def _through(self, way: int, limit: int) -> str:
+        """Follow the passage of a way to the floor beyond."""
+        room = self._outlook().room
+        left: set[mg.Tile] = set()  # what was tried in vain
+        while self.steps < limit and not self.ended:
+            if self._confused:
+                return "unsure"
+            here = self.pose[:2]
+            if here not in room and not self._known.narrow(here) and self._where.certainty >= SURE:
+                return "arrived"
+            exits = set(self._outlook().exits[way]) - left
+            beyond = self._beyond(exits, room)
+            goal = self._next(beyond, room)
+            if goal is None:
+                return "blocked"
+            plan = route(self.pose, self._known, [goal], within=room | beyond)
+            if plan is None:
+                return "blocked"
+            if not plan:
+                left |= exits
+                continue
+            self._act(plan[0])
+        return "unsure"
+
+    def _beyond(self, exits: set[mg.Tile], room: frozenset[mg.Tile]) -> set[mg.Tile]:
+        """Tiles that can be reached through the exits, as far as the next floor."""
+        found, queue = set(exits), list(exits)
+        while queue:
+            tile = queue.pop()
+            if not self._known.narrow(tile):
+                continue
+            for _, other in around(tile):
+                if other not in found and other not in room and (self._known.free(other) or self._known.shut(other)):
+                    found.add(other)
+                    queue.append(other)
+        return found
+
+    def _next(self, beyond: set[mg.Tile], room: frozenset[mg.Tile]) -> mg.Tile | None:
+        """Where to go: the floor beyond, else where the passage was not seen yet; None where it ends."""
+        floors = [tile for tile in beyond if not self._known.narrow(tile)]
+        edges = [tile for tile in beyond if self._known.shut(tile) or self._open_ended(tile)]
+        x, y, _ = self.pose
+        for tiles in (floors, edges):
+            if tiles:
+                return min(tiles, key=lambda tile: (abs(tile[0] - x) + abs(tile[1] - y), tile))
+        return None
+
+    def _open_ended(self, tile: mg.Tile) -> bool:
+        return any(not self._known.known(other) for _, other in around(tile))
+
+    def _arrive(self, steps: int) -> None:
+        """Be in the next room, and remember no more than that."""
+        room = self._known.room(self.pose[:2])
+        self._far += (steps - self._far) / self._walked
+        self._walked += 1
+        keep = {(x + i, y + j) for x, y in room for i in (-2, -1, 0, 1, 2) for j in (-2, -1, 0, 1, 2)}
+        x, y, heading = self.pose
+        self._seed = self._known.recentre((x, y), keep)
+        self._given_up.clear()
+        self._where.set((*self._seed, heading))
+        if self._glance:
+            now = self._outlook()
+            for way in range(4):
+                steps_to = distances(self.pose, self._known, now.room)
+                spot = viewpoint(steps_to, now.needed[way]) if now.needed[way] else None
+                if spot is not None and spot[1] <= self._glance:
+                    self._look([way])
+                    now = self._outlook()

@@ -1,0 +1,53 @@
+"""Which way the ways of a place lead: what a place is known by that looks like many others."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from math import isfinite
+from typing import Any, cast
+
+import numpy as np
+
+from ..errors import CogmapError
+from .base import Context
+from .sight import Sight
+from .transition import Transition
+
+NONE = -1
+"""Stands for an action that has no way here."""
+
+
+class Bearings(Sight):
+    """Senses the bearing of each way, in degrees, 0 is north, clockwise: `bearings` in observations.
+
+    That is one number an action, None where there is no way. All together are the label that the place shows.
+    """
+
+    def __init__(self, name: str = "bearings", *, prior: float | None = None) -> None:
+        super().__init__(name, prior=prior)
+
+    def join(self, context: Context, transitions: Transition) -> None:
+        """Make it part of a model."""
+        super().join(context, transitions)
+        self._actions = len(context.motions)
+
+    def check(self, value: Any) -> Hashable:
+        """The bearings as a tuple, -1 for none."""
+        listed = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes)
+        given = list(cast(Sequence[Any], value)) if listed else []
+        if len(given) != self._actions or not all(map(_is_bearing, given)):
+            raise CogmapError(
+                f"observation: {self.name} are {value!r}; give degrees for each of {self._actions} actions, "
+                "None where there is no way"
+            )
+        return tuple(NONE if each is None else _degrees(float(each)) for each in given)
+
+
+def _is_bearing(value: Any) -> bool:
+    number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+    return value is None or (number and isfinite(value))
+
+
+def _degrees(value: float) -> int | float:
+    whole = round(value % 360.0, 3) % 360.0
+    return int(whole) if whole == int(whole) else whole

@@ -1,0 +1,60 @@
+"""Which ways of two places lead to each other, by where the places lie and which way their ways point."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+EXACT = 0.6
+"""Degrees within which a way points at a place."""
+
+ROUGH = 1.6
+"""The same of bearings in whole degrees that were made different from each other."""
+
+
+class Between(NamedTuple):
+    """A way of a place, and a way of another, that may be one.
+
+    Attributes:
+        other: index of the other place.
+        action: the way there.
+        back: the way of the other place that leads back.
+    """
+
+    other: int
+    action: int
+    back: int
+
+
+def between(here: Floats, mine: Floats, where: Floats, theirs: Floats) -> list[Between]:
+    """The ways that may be one, the most probable first: those that point at each other exactly, the shortest first.
+
+    Args:
+        here: `[3]` where the place is.
+        mine: `[K]` bearings of its ways; below 0 where there is none.
+        where: `[n, 3]` where the others are.
+        theirs: `[n, K]` bearings of theirs.
+    """
+    across = where - here
+    angle = np.rad2deg(np.arctan2(across[:, 0], across[:, 1]))
+    there = _apart(mine[None] - angle[:, None], mine[None] < 0.0)
+    back = _apart(theirs - angle[:, None] - 180.0, theirs < 0.0)
+    rows = np.flatnonzero((there.min(axis=1) <= ROUGH) & (back.min(axis=1) <= ROUGH))
+    length = np.linalg.norm(across, axis=1)
+    found: list[tuple[bool, float, Between]] = []
+    for i in rows.tolist():
+        for action in np.flatnonzero(there[i] <= ROUGH).tolist():
+            for its in np.flatnonzero(back[i] <= ROUGH).tolist():
+                rough = max(there[i, action], back[i, its]) > EXACT
+                found.append((rough, float(length[i]), Between(i, action, its)))
+    return [pair for _, _, pair in sorted(found)]
+
+
+def _apart(degrees: Floats, none: NDArray[np.bool_]) -> Floats:
+    """How far an angle is from 0, up to 180."""
+    apart = np.abs((degrees + 180.0) % 360.0 - 180.0)
+    return np.where(none, np.inf, apart)

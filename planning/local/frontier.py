@@ -1,0 +1,22 @@
+"""The options of a plan: ways to places never entered."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Frontier:
+    """The best options, the best first.
+
+    Attributes:
+        paths: the actions of each.
+        places: the places of the map on these ways, ascending.
+        back: for the place that each of them ends in, how far it is from there to what else was never entered, on
+            average, in steps.
+    """
+
+    paths: tuple[tuple[int, ...], ...]
+    places: tuple[int, ...]
+    back: Mapping[int, float]

@@ -1,0 +1,81 @@
+"""Exploring by options: the likely shortest ways to places never entered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...model import CogmapError, Motions, is_number
+from ..choices import TIE, Outward
+from ..local import Frontier, LocalModel, Surroundings
+from ..terms import Term, WayBack, WayThere
+from .base import Policies, PolicyGenerator, padded
+from .frontier import frontier_of
+
+
+@dataclass(frozen=True, slots=True)
+class Options(PolicyGenerator):
+    """One policy for each place never entered that is worth heading for: the likely shortest way there.
+
+    While anything is unknown each step costs `cost` nats, and what a place teaches is collected whichever comes first,
+    so it cancels between options:
+
+        G(o_f) = cost [ d(q, f) - weight E_g |x_f - x_g| / l ]
+
+    d is the way there in steps, g runs over the other places never entered, x are positions, imagined ones too, and l
+    is the longest step: the way there now, less the way back to it later. Near me, and far from what else is left.
+    Places further off than (1 + weight) / (1 - weight) times the nearest, and a step, are never headed for.
+
+    After "Information Gain Is Not All You Need" (Ericson, Pedro, Jensfelt, arXiv 2504.01980), a distance advantage.
+
+    Attributes:
+        weight: lambda, what a step of the way back counts beside one of the way there; below 1.
+        cost: of a step, in nats.
+        kept: of so many of the best options the plan keeps record.
+        near: whether options also decide where something new is within the look-ahead; by default where positions are
+            measured.
+
+    Raises:
+        CogmapError: a number is out of range.
+    """
+
+    name: ClassVar[str] = "options"
+    weight: float = 0.5
+    cost: float = 1.0
+    kept: int = 8
+    near: bool | None = None
+
+    def __post_init__(self) -> None:
+        if not is_number(self.weight, 0.0, 0.95):
+            raise CogmapError(f"options: weight is {self.weight!r}; give a number from 0 to 0.95")
+        if not is_number(self.cost, 1e-3, 1e3):
+            raise CogmapError(f"options: cost is {self.cost!r}; give a number of nats from 0.001 to 1000")
+        if not (isinstance(self.kept, int) and 1 <= self.kept <= 1_000):  # pyright: ignore[reportUnnecessaryIsInstance]
+            raise CogmapError(f"options: kept is {self.kept!r}; give a whole number from 1 to 1000")
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        """What the G of an option is the sum of."""
+        return WayThere(self.cost), WayBack(self.cost * self.weight)
+
+    @property
+    def choice(self) -> Outward:
+        """The least G; of equals the furthest out, then by lot."""
+        return Outward(slack=TIE)
+
+    def found(self, around: Surroundings) -> Frontier | None:
+        """The best options from where the agent is; None where there are none, or they are not to decide here."""
+        if around.preferences.sights or around.preferences.places or around.structure is not None:
+            return None
+        near = around.map.pose.settles if self.near is None else self.near
+        least = 0 if near else around.look_ahead
+        return frontier_of(around, weight=self.weight, most=self.kept, beyond=least)
+
+    def make(self, model: LocalModel) -> Policies:
+        self.check(model.motions, model.look_ahead)
+        frontier = model.frontier
+        paths = [()] if frontier is None else frontier.paths
+        return Policies(padded(paths, stay=model.motions.stay, length=model.look_ahead))
+
+    def count(self, motions: Motions, look_ahead: int) -> int:
+        return self.kept

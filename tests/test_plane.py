@@ -1,0 +1,99 @@
+"""Worlds whose ways belong to the place, lived in by what is measured of each move."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import networkx as nx
+import numpy as np
+import pytest
+from cogmap.agent import Agent
+from cogmap.experiments import explore
+from cogmap.model import Bearings, CogmapError, Plane, Sight, Ways
+from cogmap.worlds import GraphWorld, ListedWays, load_world
+from shared import shared
+
+
+def grid(rows: int, columns: int, **options: Any) -> GraphWorld:
+    """A grid with a diagonal in every second cell, stretched by chance, and one way that leads one way only."""
+    rng = np.random.default_rng(3)
+    graph = nx.DiGraph(name="grid")
+    for r, c in np.ndindex(rows, columns):
+        graph.add_node(r * columns + c, position=(10.0 * c + rng.uniform(-2, 2), -10.0 * r + rng.uniform(-2, 2)))
+    for r, c in np.ndindex(rows, columns):
+        for other in ((r + 1, c), (r, c + 1), (r + 1, c + 1)):
+            if other[0] < rows and other[1] < columns and (sum(other) != r + c + 2 or (r + c) % 2):
+                graph.add_edge(r * columns + c, other[0] * columns + other[1])
+                graph.add_edge(other[0] * columns + other[1], r * columns + c)
+    graph.remove_edge(0, 1)
+    return GraphWorld.from_networkx(graph, **options)
+
+
+@pytest.mark.parametrize("sights", ["distinct", "ways", 3])
+def test_a_world_of_ways_of_their_own_is_explored(sights: Any) -> None:
+    """Every place is one place, and every way is known, though few of them were walked."""
+    for seed in range(2):
+        run = explore(grid(4, 5, sights=sights), seed)
+        assert run.map_right
+        assert run.steps_to_visit_all is not None
+        assert run.steps_to_visit_all <= 30
+        assert run.steps_to_complete is not None
+
+
+def agent_of(world: ListedWays, seed: int = 0) -> Agent:
+    sensors = [Sight("sight"), Ways(learned=True), Bearings()]
+    return Agent(world.motions, sensors=sensors, pose=Plane(), seed=seed)
+
+
+def test_positions_are_those_that_were_measured(tmp_path: Any) -> None:
+    """Also after the agent was saved and loaded in between; it walks on as it would have."""
+    world = ListedWays(grid(3, 3, sights=2))
+    observation, info = world.reset(seed=1)
+    agent, start = agent_of(world), np.array(world.unwrapped.chart.positions[info["place"]])
+    other: Agent | None = None
+    for step in range(14):
+        action = agent.step(observation)
+        if other is not None:
+            assert other.step(observation) == action
+        here = agent.map.position(agent.belief.place)
+        np.testing.assert_allclose(np.array(here)[:2], np.array(world.unwrapped.chart.positions[info["place"]]) - start)
+        observation, _, _, _, info = world.step(action)
+        if step == 5:
+            agent.save(tmp_path / "map.npz")
+            other = Agent.load(tmp_path / "map.npz")
+
+
+def test_exploring_is_by_options_and_each_says_what_it_is_worth() -> None:
+    world = ListedWays(grid(3, 4, sights=2))
+    observation, _ = world.reset(seed=0)
+    agent = agent_of(world)
+    agent.step(observation)
+    plan = agent.plan
+    assert plan.generator.name == "options"
+    assert plan.expected_free_energy.names == ("way_there", "way_back")
+    G = plan.expected_free_energy
+    np.testing.assert_allclose(G.G, G["way_there"] - G["way_back"])
+    assert plan.chosen == G.G.argmin()
+    assert (G["way_back"] > 0.0).all()
+
+
+@pytest.mark.parametrize("bearings", [None, "north", [0.0], [None, "east", None], [None, np.nan, None]])
+def test_bearings_that_are_none_are_refused(bearings: Any) -> None:
+    agent = Agent({"stay": (0,), "left": (-1,), "right": (1,)}, sensors=[Ways(), Bearings()])
+    with pytest.raises(CogmapError, match="degrees for each of 3 actions"):
+        agent.step({"open": [True] * 3, "bearings": bearings})
+
+
+def test_a_displacement_of_one_number_is_refused() -> None:
+    world = ListedWays(grid(2, 2, sights=2))
+    observation, _ = world.reset(seed=0)
+    with pytest.raises(CogmapError, match="give 2 or 3 finite numbers"):
+        agent_of(world).step({**observation, "displacement": [1.0]})
+
+
+@pytest.mark.parametrize("name", ["house_31", "house_49"])
+def test_a_real_house_is_explored(name: str) -> None:
+    run = explore(load_world(shared(f"worlds/{name}.json"), sights=6), 0)
+    assert run.map_right
+    assert run.steps_to_visit_all is not None
+    assert run.frontier_steps is None or run.steps_to_visit_all <= 1.1 * run.frontier_steps
