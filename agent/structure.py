@@ -8,7 +8,7 @@ from math import exp
 from ..inference import NOWHERE, Hypothesis, open_probability
 
 LEAST = 1e-5
-"""Hypotheses less probable than this are not worth a way: small, since they are asked where nothing else is to be done."""
+"""Hypotheses less probable than this are not worth a way; they are asked where nothing else is to be done."""
 
 
 class OpenQuestion:
