@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import NOWHERE, Hypothesis, Place, open_probability, whereabouts
+from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, whereabouts
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 
 WALKS = 3
@@ -322,9 +322,11 @@ class Mirror:
 
     def _teach_place(self, h: Hypothesis, number: int, doors: Doors) -> None:
         map_, place, record = self._map, self.places[number], h.places[number]
-        for sensor, counts in zip(map_.sights_sensed, record.sights, strict=False):
+        for at, (sensor, counts) in enumerate(zip(map_.sights_sensed, record.sights, strict=False)):
+            sure = not any(count % 1.0 for count in counts.values())
+            p = {} if sure else label_probabilities(h, number, sensor=at)
             for label, count in counts.items():
-                sensor.learn(place, label, count)
+                sensor.learn(place, label, count if sure else p[label] * len(record.recent))
         map_.pose.learn(place, float(len(record.recent)))
         self.ways.learn(place, doors, 1.0, one_way=self.one_way(h, number))
 

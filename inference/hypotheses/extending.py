@@ -8,7 +8,11 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
+<<<<<<< HEAD
 from .evidence import label_probability, odds_beyond, probability, same_door, sight_probability
+=======
+from .evidence import label_probability, odds_beyond, probability
+>>>>>>> main
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -213,17 +217,20 @@ def _count_looks(h: Hypothesis, sensed: Sensed) -> None:
 
 
 def seen(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -> SightCounts:
-    """The counts of a place after one more reading; a soft one counts by its posterior."""
+    """The counts of a place after one more reading; of likelihoods each label counts as the readings it is worth.
+
+    That is log P(reading | label) beyond that of a label which is not named, over what one sure reading is worth.
+    """
     if reading is None:
         return counts
     if isinstance(reading, int):
         return {**counts, reading: counts.get(reading, 0.0) + 1.0}
-    z = sight_probability(chances, sensor, counts, reading)
-    more = dict(counts)
+    misread, right = chances.misread[sensor], chances.right[sensor]
+    other, more = misread * sum(reading.values()), dict(counts)
     for label, likelihood in reading.items():
-        p = likelihood * label_probability(chances, sensor, counts, label) / z
-        if p > 1e-3:
-            more[label] = more.get(label, 0.0) + min(p, 1.0)
+        worth = log(1.0 + (right - misread) * likelihood / other) / chances.sight_unit[sensor]
+        if worth > 1e-3:
+            more[label] = more.get(label, 0.0) + worth
     return more
 
 
@@ -274,6 +281,8 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
                 one_way += 0.5 * (1.0 - same)
     misread, read = 0.0, 0.0
     for sensor, counts in enumerate(place.sights):
+        if any(count % 1.0 for count in counts.values()):
+            continue  # likelihoods say themselves how sure they are
         for label, count in counts.items():
             p = label_probability(chances, sensor, counts, label)
             misread += count * (1.0 - p)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import Motions, Pose, Sight, SparseDirichlet, Transition
+from ...model import Motions, Pose, Sensor, Sight, SparseDirichlet, Transition
 
 Ints = NDArray[np.int64]
 
@@ -21,6 +21,7 @@ class MapView(Protocol):
         A_o: P(sight | place), a row a place.
         A_p: P(position | place), a row a place.
         B_s: P(next place | place, action), its rows named by `rows_of`; the outcome -1 is a place never imagined.
+        sensors: all sensors, by name.
         sights_sensed: the sensors that see labels, each with what visits teach of it.
         transitions: what looks at ways teach of B_s.
         pose: what visits teach of A_p.
@@ -31,6 +32,7 @@ class MapView(Protocol):
     A_o: SparseDirichlet
     A_p: SparseDirichlet
     B_s: SparseDirichlet
+    sensors: Mapping[str, Sensor]
     sights_sensed: tuple[Sight, ...]
     transitions: Transition
     pose: Pose
