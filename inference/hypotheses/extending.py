@@ -8,11 +8,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-<<<<<<< HEAD
-from .evidence import label_probability, odds_beyond, probability, same_door, sight_probability
-=======
-from .evidence import label_probability, odds_beyond, probability
->>>>>>> main
+from .evidence import label_probability, odds_beyond, probability, same_door
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
