@@ -555,7 +555,8 @@ class Agent:
         if belief.message.certainty < self.settings.certainty:
             recognition.missed()
             return
-        self._mapper.learn(belief, percept, recognition.doors, step=state.steps)
+        one_way = recognition.one_way
+        self._mapper.learn(belief, percept, recognition.doors, step=state.steps, one_way=one_way)
         if not recognition.grown(belief.place):
             self._revise(percept)
 

@@ -144,6 +144,17 @@ class Mirror:
             doors[action] = _sure(open_probability(h, number, way)) if heard else None
         return tuple(doors)
 
+    def one_way(self, h: Hypothesis, number: int) -> tuple[int, ...]:
+        """The actions whose ways from a place are believed open on one side and shut on the other."""
+        record, inverse, found = h.places[number], h.scheme.inverse, list[int]()
+        for way in range(h.scheme.count) if inverse is not None else ():
+            other = h.neighbour(record, way)
+            if other != NOWHERE and inverse is not None:
+                here, there = open_probability(h, number, way), open_probability(h, other, inverse[way])
+                if (here > 0.5) != (there > 0.5):
+                    found.append(self._actions[way])
+        return tuple(found)
+
     # -- following -----------------------------------------------------------------------------------------
 
     def grown(self, h: Hypothesis, place: int, touched: Iterable[int]) -> None:
@@ -317,15 +328,15 @@ class Mirror:
             for label, count in counts.items():
                 sensor.learn(place, label, count if sure else p[label] * len(record.recent))
         map_.pose.learn(place, float(len(record.recent)))
-        self.ways.learn(place, doors, 1.0)
+        self.ways.learn(place, doors, 1.0, one_way=self.one_way(h, number))
 
     def _walk(self, h: Hypothesis, number: int) -> None:
-        map_, place = self._map, self.places[number]
+        map_, place, one_way = self._map, self.places[number], self.one_way(h, number)
         for way, action in enumerate(self._actions):
             known = h.places[number].ways[way]
             if known.walks and known.to != NOWHERE and open_probability(h, number, way) > 0.5:
                 for _ in range(min(known.walks, WALKS)):
-                    map_.transitions.learn(place, action, self.places[known.to], 1.0)
+                    map_.transitions.learn(place, action, self.places[known.to], 1.0, back=action not in one_way)
 
     # -- going back ----------------------------------------------------------------------------------------
 

@@ -134,6 +134,11 @@ class Recognition:
         seen = zip(self._looked, doors, strict=True)
         return tuple(bool(look) if look in (0, 1) else door for look, door in seen)
 
+    @property
+    def one_way(self) -> tuple[int, ...]:
+        """The actions whose ways from there are believed open on one side alone."""
+        return self.mirror.one_way(self._now, self._now.here)
+
     def open(self, percept: Percept) -> tuple[bool, ...]:
         """For each action whether its way may be open now: neither sensed nor believed shut."""
         sensed = percept.passable or (True,) * len(self._map.motions)
@@ -150,16 +155,15 @@ class Recognition:
     def question(self) -> OpenQuestion | None:
         """What is worth telling apart; None where nothing is, or new places are within reach, which tell as well.
 
-        Those are the hypotheses, or else, where ways are misread now and then, whether the doors were read right.
+        Those are the hypotheses, and, where ways are misread now and then, whether the doors were read right.
         """
         hypotheses, now = self.tracker.hypotheses, self.followed
         if now is None or not (self._map.visited.all() or _enclosed(now)):
             return None
-        if len(hypotheses) > 1:
-            question = OpenQuestion(hypotheses, self.sensing.ways)
-            if len(question.weights) > 1:
-                return question
-        return OpenQuestion.of_doors(now, self.sensing.ways) if ways_misread(now) > HARDLY else None
+        misread = ways_misread(now) > HARDLY
+        if len(hypotheses) < 2 and not misread:
+            return None
+        return OpenQuestion(hypotheses, self.sensing.ways, doors_of=now if misread else None)
 
     def asked(self, graph: FactorGraph, *, step: int) -> FactorGraph:
         """The graph of the window with the question which hypothesis is right, if that is open."""

@@ -8,8 +8,11 @@ from math import exp
 
 from ..inference import NOWHERE, Hypothesis, open_probability
 
-LEAST = 1e-2
-"""Hypotheses less probable than this are not worth a way."""
+LEAST = 1e-5
+"""Hypotheses less probable than this are not worth a way; they are asked where nothing else is to be done."""
+
+MISREAD = 1e-3
+"""Probability that a door is not as it was read from which on it is worth another look."""
 
 DOORS = 7
 """Doors that are asked for at a time, at most."""
@@ -24,45 +27,55 @@ Door = frozenset[tuple[int, int]]
 class OpenQuestion:
     """The hypotheses that are worth telling apart; places go by the numbers of each.
 
+    Args:
+        hypotheses: all of them.
+        ways: of actions, as hypotheses number them.
+        doors_of: one of them of which it is asked besides, door by door, whether it was read right.
+
     Attributes:
         weights: their probabilities.
         here: where the agent is in each.
     """
 
-    def __init__(self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int]) -> None:
+    def __init__(
+        self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int], *, doors_of: Hypothesis | None = None
+    ) -> None:
         kept = [(exp(h.weight), h, Door()) for h in hypotheses if exp(h.weight) >= LEAST]
-        self._begin(kept, ways)
-
-    @classmethod
-    def of_doors(cls, h: Hypothesis, ways: Mapping[int, int]) -> OpenQuestion | None:
-        """Whether the doors of one hypothesis were read right, each for itself; None where that is hardly in doubt."""
-        kept = [(p / (1.0 - p), h, door) for p, door in nlargest(DOORS, _doubtful(h), key=lambda found: found[0])]
-        if not kept:
-            return None
-        question = cls.__new__(cls)
-        question._begin([(1.0, h, Door()), *kept], ways)
-        return question
-
-    def _begin(self, kept: Sequence[tuple[float, Hypothesis, Door]], ways: Mapping[int, int]) -> None:
+        if doors_of is not None:
+            doubtful, weight = nlargest(DOORS, _doubtful(doors_of), key=lambda found: found[0]), exp(doors_of.weight)
+            kept += [(weight * p / (1.0 - p), doors_of, door) for p, door in doubtful]
         self._kept, self._ways = [(h, misread) for _, h, misread in kept], ways
+        self._ahead, self._expected = dict[tuple[int, int, int], int | None](), dict[tuple[int, int], Hashable]()
         self.weights: Sequence[float] = [weight for weight, _, _ in kept]
         self.here: Sequence[Hashable] = [h.here for _, h, _ in kept]
 
-    def _open(self, h: int, number: int, way: int) -> bool:
-        found, misread = self._kept[h]
-        return (open_probability(found, number, way) > 0.5) != ((number, way) in misread)
-
     def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
         """The place that an action leads to; the same where its way is believed shut, None for one never seen."""
-        (found, _), number, way = self._kept[h], _number(place), self._ways.get(action)
+        key = h, _number(place), action
+        if key not in self._ahead:
+            self._ahead[key] = self._leads(*key)
+        return self._ahead[key]
+
+    def _leads(self, h: int, number: int, action: int) -> int | None:
+        (found, _), way = self._kept[h], self._ways.get(action)
         if way is None or not self._open(h, number, way):
             return number
         to = found.neighbour(found.places[number], way)
         return None if to == NOWHERE else to
 
+    def _open(self, h: int, number: int, way: int) -> bool:
+        found, misread = self._kept[h]
+        return (open_probability(found, number, way) > 0.5) != ((number, way) in misread)
+
     def expected(self, h: int, place: Hashable, /) -> Hashable:
         """Its sights, and its ways as far as they were looked at."""
-        (found, _), number = self._kept[h], _number(place)
+        key = h, _number(place)
+        if key not in self._expected:
+            self._expected[key] = self._shows(*key)
+        return self._expected[key]
+
+    def _shows(self, h: int, number: int) -> Hashable:
+        found, _ = self._kept[h]
         record = found.places[number]
         looked = [
             None if not (way.open or way.blocked) else self._open(h, number, k) for k, way in enumerate(record.ways)
@@ -81,7 +94,7 @@ def _doubtful(h: Hypothesis) -> Iterator[tuple[float, Door]]:
             door = _sides(h, number, way)
             asked |= door
             p = open_probability(h, number, way)
-            if min(p, 1.0 - p) >= LEAST:
+            if min(p, 1.0 - p) >= MISREAD:
                 yield min(p, 1.0 - p), door
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .cells import Cell, Key, Row, kept_rows, run_cell, run_cells
     from .exploring import ExploreRun, exploration, explore, explore_many, frontier_steps, oracle_steps, summarise, walk
-    from .goals import WEIGHT, check_goal, parse_goal
+    from .goals import WEIGHT, check_goal, parse_goal, shortest
     from .judging import BELIEVED, Trail, Verdict, judge
     from .kidnapping import KidnapRun, check_kidnap, kidnap, kidnap_many, kidnap_result
     from .knowledge import Truth
@@ -29,7 +29,7 @@ __all__ = [
     "exploration", "explore", "explore_many", "explored", "file_named", "frontier_steps", "judge", "kept_rows",
     "kidnap", "kidnap_many", "kidnap_result", "map_seeds", "map_tasks", "mean", "navigate", "navigate_many",
     "navigate_result", "number", "oracle_steps", "parse_goal", "picture_of", "run", "run_cell", "run_cells",
-    "set_out", "spread", "std", "summarise", "unused", "walk", "workers", "write_json", "write_picture",
+    "set_out", "shortest", "spread", "std", "summarise", "unused", "walk", "workers", "write_json", "write_picture",
 ]  # fmt: skip
 
 _EARLY = "text pool running output ledger records low_level parts judging knowledge session"

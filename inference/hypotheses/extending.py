@@ -8,7 +8,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_probability, odds_beyond, probability
+from .evidence import label_probability, odds_beyond, probability, same_door
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -257,7 +257,7 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
 
     A door between two places is shared by both: each adds half of it.
     """
-    opened, blocked, wrong, right, beside, shut = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    opened, blocked, wrong, right, beside, shut, undone, one_way = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     chances = h.chances
     for index, way in enumerate(place.ways):
         other = h.neighbour(place, index)
@@ -272,6 +272,9 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
             shut += half * (1.0 - p) * known
             wrong += p * way.blocked + (1.0 - p) * way.open
             right += p * way.open + (1.0 - p) * way.blocked
+            if known and number != other and (same := same_door(h, place, index, other, number)) is not None:
+                undone += 0.5 * same
+                one_way += 0.5 * (1.0 - same)
     misread, read = 0.0, 0.0
     for sensor, counts in enumerate(place.sights):
         if any(count % 1.0 for count in counts.values()):
@@ -280,5 +283,5 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
             p = label_probability(chances, sensor, counts, label)
             misread += count * (1.0 - p)
             read += count * p
-    share = Share(opened, blocked, wrong, right, misread, read, beside, shut)
+    share = Share(opened, blocked, wrong, right, misread, read, beside, shut, undone, one_way)
     return Place(place.sights, place.ways, place.frame, place.position, place.recent, place.into, share)
