@@ -20,6 +20,7 @@ from pages import Page
 from toy_study import NASTY, Tabled, Toy
 
 NAMES = [
+    "buildings",
     "cost",
     "donut",
     "exploration",
