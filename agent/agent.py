@@ -191,6 +191,11 @@ class Agent:
         return self._state.steps
 
     @property
+    def cost(self) -> float:
+        """What its moves have cost so far, as percepts said (`cost`); 0 where none did."""
+        return sum(total for _, total in self._state.costs.values())
+
+    @property
     def belief(self) -> Belief:
         """What it believes about where it is, after the last observation."""
         if self._state.belief is None:
@@ -312,6 +317,7 @@ class Agent:
             self._recognition.take_in(percept)
         self._infer(percept)
         self._teach(percept)
+        state.spend(percept)
         state.percept, state.acted, state.choice, self._plan = percept, False, None, None
         state.open = self._recognition.open(percept)
         state.steps += 1
@@ -358,7 +364,7 @@ class Agent:
         record = record_of(
             state.steps - 1,
             sensed,
-            percept.open or (),
+            percept,
             self.belief,
             plan,
             self.map.changes.since(state.begun)[0] or (),
@@ -549,7 +555,8 @@ class Agent:
         if belief.message.certainty < self.settings.certainty:
             recognition.missed()
             return
-        self._mapper.learn(belief, percept, recognition.doors, step=state.steps)
+        one_way = recognition.one_way
+        self._mapper.learn(belief, percept, recognition.doors, step=state.steps, one_way=one_way)
         if not recognition.grown(belief.place):
             self._revise(percept)
 
@@ -607,6 +614,7 @@ class Agent:
             information_weight=settings.information_weight,
             starts=settings.starts,
             cache=self._cache,
+            costs=self._state.expected_costs(len(self.map.motions), stay=self.map.motions.stay),
             structure=None if preferences else self._recognition.question,  # what is preferred comes first
             unseen=unseen_ways(self._state.percept, self.map.motions),
         )

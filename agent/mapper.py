@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from ..inference import Belief
 from ..model import CognitiveMap, Growth, Percept, Ways, Whereabouts
 from .mirror import Doors, passable
@@ -37,7 +39,9 @@ class Mapper:
         if self._settings.forgetting:
             self._map.transitions.forget(1.0 - self._settings.forgetting)
 
-    def learn(self, belief: Belief, percept: Percept, doors: Doors, *, step: int) -> None:
+    def learn(
+        self, belief: Belief, percept: Percept, doors: Doors, *, step: int, one_way: Collection[int] = ()
+    ) -> None:
         """What a certain belief teaches: transitions, what was sensed, and the places behind open doors.
 
         Only the place that passed the gate learns: the prior of A_o is so small that even a hundredth of a count
@@ -47,15 +51,17 @@ class Mapper:
             belief: where the agent is.
             percept: what the step brought.
             doors: of the most probable place, as all looks at them say.
+            one_way: the actions whose ways from there are open on one side alone.
             step: the time step.
         """
         map_, place, weight, open_ = self._map, belief.place, belief.message.certainty, passable(doors)
         if percept.action is not None:
             for previous, next_, walked in zip(*(part.tolist() for part in belief.pairwise), strict=True):
                 if previous != next_ or not open_[percept.action]:  # else the move failed
-                    map_.transitions.learn(previous, percept.action, next_, walked)
+                    back = next_ != place or map_.motions.inverse[percept.action] not in one_way
+                    map_.transitions.learn(previous, percept.action, next_, walked, back=back)
         map_.mark_visited(place)
         map_.pose.look(map_, place, percept, step=step)
         map_.recall(self._growth.look(map_, Whereabouts(belief.places), open_, step=step))
         map_.learn(place, {name: told for name, told in percept.readings.items() if name != self._ways.name}, weight)
-        self._ways.learn(place, doors, weight)
+        self._ways.learn(place, doors, weight, one_way=one_way)

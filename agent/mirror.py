@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import NOWHERE, Hypothesis, Place, open_probability, whereabouts
+from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, whereabouts
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 
 WALKS = 3
@@ -143,6 +143,17 @@ class Mirror:
             heard = known.net or known.walks or h.neighbour(record, way) != NOWHERE
             doors[action] = _sure(open_probability(h, number, way)) if heard else None
         return tuple(doors)
+
+    def one_way(self, h: Hypothesis, number: int) -> tuple[int, ...]:
+        """The actions whose ways from a place are believed open on one side and shut on the other."""
+        record, inverse, found = h.places[number], h.scheme.inverse, list[int]()
+        for way in range(h.scheme.count) if inverse is not None else ():
+            other = h.neighbour(record, way)
+            if other != NOWHERE and inverse is not None:
+                here, there = open_probability(h, number, way), open_probability(h, other, inverse[way])
+                if (here > 0.5) != (there > 0.5):
+                    found.append(self._actions[way])
+        return tuple(found)
 
     # -- following -----------------------------------------------------------------------------------------
 
@@ -311,19 +322,21 @@ class Mirror:
 
     def _teach_place(self, h: Hypothesis, number: int, doors: Doors) -> None:
         map_, place, record = self._map, self.places[number], h.places[number]
-        for sensor, counts in zip(map_.sights_sensed, record.sights, strict=False):
+        for at, (sensor, counts) in enumerate(zip(map_.sights_sensed, record.sights, strict=False)):
+            sure = not any(count % 1.0 for count in counts.values())
+            p = {} if sure else label_probabilities(h, number, sensor=at)
             for label, count in counts.items():
-                sensor.learn(place, label, count)
+                sensor.learn(place, label, count if sure else p[label] * len(record.recent))
         map_.pose.learn(place, float(len(record.recent)))
-        self.ways.learn(place, doors, 1.0)
+        self.ways.learn(place, doors, 1.0, one_way=self.one_way(h, number))
 
     def _walk(self, h: Hypothesis, number: int) -> None:
-        map_, place = self._map, self.places[number]
+        map_, place, one_way = self._map, self.places[number], self.one_way(h, number)
         for way, action in enumerate(self._actions):
             known = h.places[number].ways[way]
             if known.walks and known.to != NOWHERE and open_probability(h, number, way) > 0.5:
                 for _ in range(min(known.walks, WALKS)):
-                    map_.transitions.learn(place, action, self.places[known.to], 1.0)
+                    map_.transitions.learn(place, action, self.places[known.to], 1.0, back=action not in one_way)
 
     # -- going back ----------------------------------------------------------------------------------------
 

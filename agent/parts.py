@@ -7,12 +7,12 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from ..model import GROWTHS, POSES, SENSORS, CogmapError, GenerativeModel, Growth, Pose, Sensor
-from ..planning import CHOICES, POLICIES, TERMS, Options, Planner
+from ..planning import CHOICES, POLICIES, TERMS, Cost, Options, Planner
 
 Kinds = Mapping[str, type[Any]]
 
 _EXPLORERS: Kinds = {Options.name: Options}
-_TERMS: Kinds = {term.name: type(term) for term in TERMS}
+_TERMS: Kinds = {term.name: type(term) for term in (*TERMS, Cost())}
 
 
 class MissingPart(CogmapError):  # noqa: N818 - reads as what it says

@@ -134,6 +134,11 @@ class Recognition:
         seen = zip(self._looked, doors, strict=True)
         return tuple(bool(look) if look in (0, 1) else door for look, door in seen)
 
+    @property
+    def one_way(self) -> tuple[int, ...]:
+        """The actions whose ways from there are believed open on one side alone."""
+        return self.mirror.one_way(self._now, self._now.here)
+
     def open(self, percept: Percept) -> tuple[bool, ...]:
         """For each action whether its way may be open now: neither sensed nor believed shut."""
         sensed = percept.passable or (True,) * len(self._map.motions)

@@ -7,6 +7,7 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..inference import Belief
 from ..model import CogmapError, Percept, Slice
@@ -73,6 +74,7 @@ class State:
         begun: where the log of changes was when the present step began.
         revised: whether it changed its mind at the present step: the map, or where it is in it.
         told: it was told that it was moved, since the last step.
+        costs: by action, how often a move cost something, and how much in all.
     """
 
     window: deque[Slice]
@@ -87,3 +89,21 @@ class State:
     begun: int = 0
     revised: bool = False
     told: bool = False
+    costs: Mapping[int, tuple[int, float]] = field(default_factory=dict[int, tuple[int, float]])
+
+    def spend(self, percept: Percept) -> None:
+        """Count what a move has cost, where that was said."""
+        if percept.cost is not None and percept.action is not None:
+            times, total = self.costs.get(percept.action, (0, 0.0))
+            self.costs = {**self.costs, percept.action: (times + 1, total + percept.cost)}
+
+    def expected_costs(self, actions: int, *, stay: int) -> NDArray[np.float64] | None:
+        """`[K]` the mean cost of each action so far, None where none was said.
+
+        One of which none was said costs what all do on average, but for one that stays, which costs nothing.
+        """
+        times, total = (sum(parts) for parts in zip((0, 0.0), *self.costs.values(), strict=True))
+        if not times:
+            return None
+        means = {stay: 0.0} | {action: spent / many for action, (many, spent) in self.costs.items()}
+        return np.array([means.get(action, total / times) for action in range(actions)])

@@ -7,8 +7,8 @@ from math import exp
 
 from ..inference import NOWHERE, Hypothesis, open_probability
 
-LEAST = 1e-2
-"""Hypotheses less probable than this are not worth a way."""
+LEAST = 1e-5
+"""Hypotheses less probable than this are not worth a way; they are asked where nothing else is to be done."""
 
 
 class OpenQuestion:
@@ -22,12 +22,19 @@ class OpenQuestion:
     def __init__(self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int]) -> None:
         self._kept = [h for h in hypotheses if exp(h.weight) >= LEAST]
         self._ways = ways
+        self._ahead, self._expected = dict[tuple[int, int, int], int | None](), dict[tuple[int, int], Hashable]()
         self.weights: Sequence[float] = [exp(h.weight) for h in self._kept]
         self.here: Sequence[Hashable] = [h.here for h in self._kept]
 
     def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
         """The place that an action leads to; the same where its way is believed shut, None for one never seen."""
-        found, number, way = self._kept[h], _number(place), self._ways.get(action)
+        key = h, _number(place), action
+        if key not in self._ahead:
+            self._ahead[key] = self._leads(*key)
+        return self._ahead[key]
+
+    def _leads(self, h: int, number: int, action: int) -> int | None:
+        found, way = self._kept[h], self._ways.get(action)
         if way is None or open_probability(found, number, way) < 0.5:
             return number
         to = found.neighbour(found.places[number], way)
@@ -35,7 +42,13 @@ class OpenQuestion:
 
     def expected(self, h: int, place: Hashable, /) -> Hashable:
         """Its sights, and its ways as far as they were looked at."""
-        found, number = self._kept[h], _number(place)
+        key = h, _number(place)
+        if key not in self._expected:
+            self._expected[key] = self._shows(*key)
+        return self._expected[key]
+
+    def _shows(self, h: int, number: int) -> Hashable:
+        found = self._kept[h]
         record = found.places[number]
         looked = [
             None if not (way.open or way.blocked) else open_probability(found, number, k) > 0.5

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from ..inference import Belief
-from ..model import Entry, GrowthEvent, ParameterUpdate, updates
+from ..model import Entry, GrowthEvent, ParameterUpdate, Percept, updates
 from ..planning import Plan, Term
 
 
@@ -35,6 +35,7 @@ class StepRecord:
         terms: what G is the sum of.
         policies: how many policies were considered.
         action: the action taken.
+        cost: what the move that led here cost; None where that was not said.
         sensed: label of what each sensor but that of the ways sensed, by its name.
         revised: whether it changed its mind: the map, or where it is in it.
     """
@@ -61,6 +62,7 @@ class StepRecord:
     action: int
     revised: bool = False
     sensed: Mapping[str, Hashable] = field(default_factory=dict[str, Hashable])
+    cost: float | None = None
 
     @property
     def free_energy(self) -> float:
@@ -71,7 +73,7 @@ class StepRecord:
 def record_of(
     step: int,
     sensed: Mapping[str, Hashable],
-    open_: tuple[bool | float | None, ...],
+    percept: Percept,
     belief: Belief,
     plan: Plan,
     entries: Iterable[Entry],
@@ -84,7 +86,7 @@ def record_of(
     return StepRecord(
         step=step,
         sight=sensed.get("sight"),
-        open=open_,
+        open=percept.open or (),
         places=belief.places,
         certainty=belief.certainty,
         doubt=belief.doubt,
@@ -104,4 +106,5 @@ def record_of(
         action=plan.action,
         revised=revised,
         sensed=sensed,
+        cost=percept.cost,
     )

@@ -9,8 +9,10 @@ from .loading import BODILY, load_embodied
 from .protocol import OUTCOMES, Body, Percept
 
 if TYPE_CHECKING:
+    from .errand import errand_of
     from .eyes import Eyes, View
     from .minigrid import MiniGridBody
+    from .registered import PixelView, RegisteredWorld
     from .world import GOAL, EmbodiedWorld, embodied
 
 __all__ = [
@@ -22,12 +24,15 @@ __all__ = [
     "Eyes",
     "MiniGridBody",
     "Percept",
+    "PixelView",
+    "RegisteredWorld",
     "View",
     "embodied",
+    "errand_of",
     "load_embodied",
 ]
 
-_HEAVY = ("eyes", "minigrid", "world")
+_HEAVY = ("errand", "eyes", "minigrid", "registered", "world")
 
 
 def __getattr__(name: str) -> Any:

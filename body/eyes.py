@@ -14,6 +14,7 @@ from .vocabulary import vocabulary
 DOUBT = 7.0
 """Nats by which the least likely tile is less likely than the most likely one: no look is surer than that."""
 _QUIET = 3.0  # of 255: no camera is taken to be better
+_PARTS = 4  # in which looks are compared: small products are not handed to threads, which others may keep waiting
 _SPREAD = 0.75  # quantile of the tiles whose misfit tells the noise: some may be none that is known
 
 
@@ -74,19 +75,24 @@ class Eyes:
     def _symbols(self, image: NDArray[Any]) -> NDArray[np.float64]:
         """A tile that is in no list is not made out."""
         numbers = [self._number.get(tuple(code), 0) for code in image.reshape(-1, 3).tolist()]
-        log_likelihood = np.full((len(numbers), len(self._words.codes)), -DOUBT)
-        log_likelihood[np.arange(len(numbers)), numbers] = 0.0
-        return log_likelihood
+        return _certain(numbers, len(self._words.codes))
 
     def _pixels(self, image: NDArray[Any], size: int) -> NDArray[np.float64]:
         pixels = len(image) // size
         looks = self._words.looks(pixels)
-        seen = image.reshape(size, pixels, size, pixels, 3).transpose(2, 0, 1, 3, 4).reshape(size * size, -1)
-        seen = seen.astype(np.float64)
-        squared, energy, likeness = (seen**2).sum(axis=1), (looks**2).sum(axis=1), seen @ looks.T
+        tiles = image.reshape(size, pixels, size, pixels, 3).transpose(2, 0, 1, 3, 4).reshape(size * size, -1)
+        here = size // 2 * size + size - 1  # the agent is drawn on its own tile
+        exact = self._words.exact(pixels)
+        numbers = [exact.get(tile.tobytes(), -1) for tile in tiles]
+        numbers[here] = max(numbers[here], 0)
+        if min(numbers) >= 0:  # no noise at all: there is no doubt
+            self.noise, self.gain = 0.0, 1.0
+            return _certain(numbers, len(looks))
+        seen = tiles.astype(np.float64)
+        squared, energy = (seen**2).sum(axis=1), (looks**2).sum(axis=1)
+        likeness = np.concatenate([seen @ part.T for part in np.array_split(looks, _PARTS)], axis=1)
         misfit = squared[:, None] - 2.0 * likeness + energy
         best = misfit.argmin(axis=1)
-        here = size // 2 * size + size - 1  # the agent is drawn on its own tile
         rows = np.delete(np.arange(len(best)), here)
         lit = energy[best[rows]].sum()
         self.gain = float(likeness[rows, best[rows]].sum() / lit) if lit else 1.0
@@ -96,3 +102,9 @@ class Eyes:
         self.noise = float(np.sqrt(np.quantile(least[rows], _SPREAD) / looks.shape[1]))
         variance = max(self.noise, _QUIET) ** 2
         return np.maximum((least[:, None] - misfit) / (2.0 * variance), -DOUBT)
+
+
+def _certain(numbers: list[int], count: int) -> NDArray[np.float64]:
+    log_likelihood = np.full((len(numbers), count), -DOUBT)
+    log_likelihood[np.arange(len(numbers)), numbers] = 0.0
+    return log_likelihood

@@ -8,17 +8,18 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..worlds import minigrid as mg
+from .errand import Errand
 from .eyes import DOUBT, Eyes
 from .outlook import Outlook, Sizes, outlook, viewpoint
 from .protocol import Percept
 from .room_map import CENTRE, Pose, RoomMap, around
 from .routes import distances, route
 from .vocabulary import vocabulary
-from .whereabouts import NOTHING, SURE, TOGGLE, Whereabouts, moved
+from .whereabouts import FORWARD, LEFT, NOTHING, PICKUP, RIGHT, SURE, TOGGLE, Whereabouts, moved
 
 UP = 3
 """The way a body faces where it wakes up, whatever that is in the world."""
-_LOOKS, _TRIES = 40, 400
+_LOOKS, _TRIES, _PATIENCE, _ASTRAY = 40, 400, 12, 40
 _PASSAGE = 5.0  # tiles that a passage is expected to have before any was walked
 
 
@@ -39,6 +40,7 @@ class MiniGridBody:
     Args:
         limbs: what it drives.
         glance: low-level steps that looking at walls which it has not seen may cost where it arrives.
+        survey: whether it looks at all of a room where it arrives, not at its walls alone.
 
     Attributes:
         steps: low-level steps taken.
@@ -46,15 +48,16 @@ class MiniGridBody:
         reward: the sum of what it was given.
     """
 
-    def __init__(self, limbs: Limbs, *, glance: int = 0) -> None:
-        self._limbs, self._glance = limbs, glance
+    def __init__(self, limbs: Limbs, *, glance: int = 0, survey: bool = False) -> None:
+        self._limbs, self._glance, self._survey = limbs, glance, survey
+        self._errand: Errand | None = None
         self._eyes, self._known, self._sizes = Eyes(), RoomMap(), Sizes()
         self._where = Whereabouts((CENTRE, CENTRE, UP))
         self._seed: mg.Tile = (CENTRE, CENTRE)
         self._given_up: set[mg.Tile] = set()
         self._far, self._walked = _PASSAGE, 1
         self.steps, self.ended, self.reward = 0, False, 0.0
-        self._confused = False
+        self._confused, self._unsure = False, 0
 
     @property
     def pose(self) -> Pose:
@@ -71,8 +74,12 @@ class MiniGridBody:
         """Whether what it saw last fits nothing that it expected."""
         return self._confused
 
-    def begin(self, observation: Any) -> None:
-        """Open the eyes in a new world, of which nothing is known; the frame begins with where it faces."""
+    def begin(self, observation: Any, *, errand: Errand | None = None) -> None:
+        """Open the eyes in a new world, of which nothing is known; the frame begins with where it faces.
+
+        With an errand it looks for that wherever it comes, and runs it as soon as it sees what is wanted.
+        """
+        self._errand = errand
         self._known.clear()
         self._sizes = Sizes()
         self._where = Whereabouts((CENTRE, CENTRE, UP))
@@ -87,6 +94,7 @@ class MiniGridBody:
         """Look round once, at all walls."""
         begin = self.steps
         self._look(range(4))
+        self._run_errand()
         return self._percept(None, begin)
 
     def look(self, ways: Iterable[int]) -> Percept:
@@ -102,6 +110,9 @@ class MiniGridBody:
         outcome = "unsure" if self._confused else self._through(way, limit)
         if outcome == "arrived":
             self._arrive(self.steps - begin)
+            if self._survey:
+                self._look(range(4))
+        self._run_errand()
         return self._percept(outcome, begin)
 
     def settle(self, floor: int) -> Percept:
@@ -161,18 +172,26 @@ class MiniGridBody:
     def _look(self, ways: Iterable[int]) -> None:
         """Turn and walk until each of the ways is seen open, or surely is none; give up what cannot be seen."""
         ways = list(ways)
+        plan: list[int] = []
+        before, meant = frozenset[mg.Tile](), self.pose
         for _ in range(_LOOKS):
             now = self._outlook()
-            targets = frozenset[mg.Tile]().union(*(now.needed[way] for way in ways))
-            if not targets or self.ended or self._confused:
+            targets = frozenset[mg.Tile]().union(*(now.unknown if self._survey else map(now.needed.__getitem__, ways)))
+            if self._wanted() or not targets or self.ended or self._confused:
                 return
+            if plan and targets == before and self.pose == meant:
+                meant = moved(self.pose, plan[0], self._known)
+                self._act(plan.pop(0))
+                continue
             steps = distances(self.pose, self._known, now.room)
             spot = viewpoint(steps, targets)
             if spot is None or spot[1] == 0:  # they are in view, and yet not seen
                 self._given_up |= targets if spot is None else self._in_view(targets)
                 continue
-            plan = route(self.pose, self._known, [spot[0]], within=now.room)
-            self._act(plan[0] if plan else NOTHING)
+            plan = route(self.pose, self._known, [spot[0]], within=now.room) or []
+            plan, before = plan or [NOTHING], targets
+            meant = moved(self.pose, plan[0], self._known)
+            self._act(plan.pop(0))
 
     def _in_view(self, targets: Iterable[mg.Tile]) -> set[mg.Tile]:
         return {tile for tile in targets if viewpoint({self.pose: 0}, [tile]) is not None}
@@ -184,16 +203,14 @@ class MiniGridBody:
         self.steps += 1
         self.reward += float(reward)
         self.ended = self.ended or terminated or truncated
-        if action == TOGGLE:
-            x, y, heading = self.pose
-            self._known.unlearn((x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]))
         self._sense(action, observation)
 
     def _sense(self, action: int, observation: Any) -> None:
         view = self._eyes.look(observation["image"])
         meant = moved(self.pose, action, self._known)
         self._where.update(action, view, self._known)
-        if self._where.lost:
+        self._unsure = 0 if self._where.certainty >= SURE else self._unsure + 1
+        if self._where.lost or self._unsure > _ASTRAY:
             self._where.set(meant)  # which way it faces may be the same still
             self._anew(observation)
             self._confused = True
@@ -204,34 +221,78 @@ class MiniGridBody:
         """Nothing is known of where it is; it takes itself to face where it faced."""
         self._known.clear()
         self._given_up.clear()
-        self._seed = (CENTRE, CENTRE)
+        self._seed, self._unsure = (CENTRE, CENTRE), 0
         self._where.set((CENTRE, CENTRE, self.pose[2]))
         self._known.add(self.pose, self._eyes.look(observation["image"]))
         self._confused = False
 
     def _through(self, way: int, limit: int) -> str:
         """Follow the passage of a way to the floor beyond."""
-        room = self._outlook().room
+        now = self._outlook()
+        room, exits = now.room, set(now.exits[way])
         left: set[mg.Tile] = set()  # what was tried in vain
+        waited = 0
         while self.steps < limit and not self.ended:
-            if self._confused:
+            if self._confused or self._wanted():
                 return "unsure"
             here = self.pose[:2]
             if here not in room and not self._known.narrow(here) and self._where.certainty >= SURE:
                 return "arrived"
-            exits = set(self._outlook().exits[way]) - left
+            if not exits:
+                exits = set(self._outlook().exits[way]) - left
             beyond = self._beyond(exits, room)
             goal = self._next(beyond, room)
-            if goal is None:
-                return "blocked"
-            plan = route(self.pose, self._known, [goal], within=room | beyond)
-            if plan is None:
-                return "blocked"
-            if not plan:
+            plan = None if goal is None else route(self.pose, self._known, [goal], within=room | beyond)
+            if plan:
+                self._act(plan[0])
+            elif waited < _PATIENCE and (plan is not None or self._where.certainty < SURE):
+                waited += 1
+                self._act(self._into_the_unknown())
+            elif plan is not None:
                 left |= exits
-                continue
-            self._act(plan[0])
+                exits = set()
+            else:
+                return "blocked"
         return "unsure"
+
+    def _wanted(self) -> list[int] | None:
+        """The way to what the errand is about, if that was seen and can be reached."""
+        if self._errand is None or self.ended:
+            return None
+        tiles = self._known.tile
+        found = [(x, y) for y, x in np.argwhere((tiles >= 0) & self._errand.wanted[tiles]).tolist()]
+        if not found:
+            return None
+        goals: list[Any] = [
+            tile if self._errand.upon else (tile[0] - dx, tile[1] - dy, heading)
+            for tile in found
+            for heading, (dx, dy) in enumerate(mg.AHEAD)
+        ]
+        masks = self._known.masks()
+        within = {(x, y) for y, x in np.argwhere(masks.free | masks.door).tolist()}
+        if not self._errand.upon:
+            within -= set(found)
+        return route(self.pose, self._known, goals, within=within)
+
+    def _run_errand(self) -> None:
+        """Go where it is wanted, and do what is to be done there."""
+        for _ in range(_TRIES):
+            plan = self._wanted()
+            if plan is None or self.ended:
+                return
+            if plan:
+                self._act(plan[0])
+                continue
+            assert self._errand is not None
+            self._act({"pickup": PICKUP, "toggle": TOGGLE, None: NOTHING}[self._errand.action])
+            self._errand = None if self._errand.action != "toggle" else self._errand
+
+    def _into_the_unknown(self) -> int:
+        """Turn to a tile of which nothing is known, and go there: who is not sure where it is has learned nothing."""
+        x, y, heading = self.pose
+        unknown = [h for h, other in around((x, y)) if not self._known.known(other)]
+        turns = min(((h - heading) % 4 for h in unknown), default=1, key=(0, 1, 3, 2).index)
+        return (FORWARD, RIGHT, RIGHT, LEFT)[turns]
 
     def _beyond(self, exits: set[mg.Tile], room: frozenset[mg.Tile]) -> set[mg.Tile]:
         """Tiles that can be reached through the exits, as far as the next floor."""
@@ -259,9 +320,22 @@ class MiniGridBody:
     def _open_ended(self, tile: mg.Tile) -> bool:
         return any(not self._known.known(other) for _, other in around(tile))
 
+    @property
+    def room(self) -> str:
+        """What can be told of the room, in words: its size, colour of floor, and what lies in it."""
+        now, words = self._outlook(), vocabulary()
+        xs, ys = {x for x, _ in now.room}, {y for _, y in now.room}
+        beside = {other for tile in now.room for _, other in around(tile)}
+        kinds = {int(self._known.tile[y, x]) for x, y in beside}
+        things = sorted("-".join(map(str, words.codes[k, :2])) for k in kinds if k >= 0 and words.thing[k])
+        return " ".join([f"{len(xs)}x{len(ys)}", str(self._sight(now)), *things])
+
+    def _room(self, tile: mg.Tile) -> frozenset[mg.Tile]:
+        return outlook(self._known, tile, self._sizes, ()).room
+
     def _arrive(self, steps: int) -> None:
         """Be in the next room, and remember no more than that."""
-        room = self._known.room(self.pose[:2])
+        room = self._room(self.pose[:2])
         self._far += (steps - self._far) / self._walked
         self._walked += 1
         keep = {(x + i, y + j) for x, y in room for i in (-2, -1, 0, 1, 2) for j in (-2, -1, 0, 1, 2)}

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..worlds import minigrid as mg
-from .room_map import Pose, RoomMap, around
+from .room_map import Mask, Pose, RoomMap, shifted
 
 MAYBE = 0.25
 """Probability that a room goes on beyond what was seen from which on that has to be looked at."""
 
-_CONES = [{tuple(tile) for tile in mg.view_offsets(h).reshape(-1, 2).tolist()} for h in range(4)]
+_HEADINGS = np.array(mg.AHEAD)
+_FAR, _WIDE = 6, 3  # tiles that are in view ahead, and to each side
 
 
 class Sizes:
@@ -57,28 +58,23 @@ class Outlook:
 
 def outlook(known: RoomMap, seed: mg.Tile, sizes: Sizes, given_up: Collection[mg.Tile]) -> Outlook:
     """What can be told of the room that holds the tile `seed`; tiles that were given up count as walls."""
-    room = known.room(seed)
-    exits: list[set[mg.Tile]] = [set() for _ in range(4)]
-    unknown: list[set[mg.Tile]] = [set() for _ in range(4)]
-    for tile in room:
-        for heading, other in around(tile):
-            if other in room:
-                continue
-            if not known.known(other):
-                if other not in given_up:
-                    unknown[heading].add(other)
-            elif known.narrow(other) and (known.free(other) or known.door(other)):
-                exits[heading].add(other)
-    wide, high = _extent(room)
+    masks, room = known.masks(), known.room(seed)
+    exits: list[tuple[mg.Tile, ...]] = []
+    unknown: list[frozenset[mg.Tile]] = []
+    passable = masks.narrow & (masks.free | masks.door)
+    for heading in range(4):
+        beside = shifted(room, (heading + 2) % 4) & ~room
+        exits.append(tuple(sorted(_tiles(beside & passable))))
+        unknown.append(frozenset(_tiles(beside & ~masks.known)) - frozenset(given_up))
+    tiles = frozenset(_tiles(room))
+    wide, high = _extent(tiles)
     needed: list[frozenset[mg.Tile]] = []
     for heading in range(4):
-        tiles = set(unknown[heading])
-        across = wide if heading % 2 else high
-        if not tiles and sizes.goes_on(across) > MAYBE:
-            tiles = unknown[(heading + 1) % 4] | unknown[(heading - 1) % 4]
-        needed.append(frozenset() if exits[heading] else frozenset(tiles))
-    listed = tuple(tuple(sorted(found)) for found in exits)
-    return Outlook(frozenset(room), listed, tuple(map(frozenset, unknown)), tuple(needed))
+        aims = unknown[heading]
+        if not aims and sizes.goes_on(wide if heading % 2 else high) > MAYBE:
+            aims = unknown[(heading + 1) % 4] | unknown[(heading - 1) % 4]
+        needed.append(frozenset() if exits[heading] else aims)
+    return Outlook(tiles, tuple(exits), tuple(unknown), tuple(needed))
 
 
 def viewpoint(steps: dict[Pose, int], targets: Collection[mg.Tile]) -> tuple[Pose, int, int] | None:
@@ -86,18 +82,23 @@ def viewpoint(steps: dict[Pose, int], targets: Collection[mg.Tile]) -> tuple[Pos
 
     The nearest from which all are in view, else the one with the most for its distance.
     """
-    aims = np.array(sorted(targets), dtype=np.int64)
-    best: tuple[tuple[float, int], Pose, int, int] | None = None
-    for pose, distance in steps.items():
-        offsets = aims - pose[:2]
-        cone = _CONES[pose[2]]
-        many = sum(tuple(offset) in cone for offset in offsets.tolist())
-        if not many:
-            continue
-        worth = (-1e9 + distance if many == len(aims) else distance / many, distance)
-        if best is None or worth < best[0]:
-            best = worth, pose, distance, many
-    return None if best is None else best[1:]
+    aims, poses = np.array(sorted(targets)), np.array([*steps])
+    distance = np.array([*steps.values()])
+    far = aims[None, :, :] - poses[:, None, :2]
+    ahead, right = _HEADINGS[poses[:, 2]], _HEADINGS[(poses[:, 2] + 1) % 4]
+    forward, across = (far * ahead[:, None]).sum(axis=2), (far * right[:, None]).sum(axis=2)
+    many = ((forward >= 0) & (forward <= _FAR) & (abs(across) <= _WIDE)).sum(axis=1)
+    if not many.any():
+        return None
+    worth = np.where(many == len(aims), distance - 1e9, distance / np.maximum(many, 1))
+    worth[many == 0] = np.inf
+    best = int(np.lexsort((distance, worth))[0])
+    x, y, heading = poses[best].tolist()
+    return (x, y, heading), int(distance[best]), int(many[best])
+
+
+def _tiles(mask: Mask) -> list[mg.Tile]:
+    return [(x, y) for y, x in np.argwhere(mask).tolist()]
 
 
 def _extent(room: Collection[mg.Tile]) -> tuple[int, int]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +22,24 @@ UNKNOWN = -1
 _SURE = 14.0  # nats: two looks that agree; what has changed is believed after as many
 _NOVEL = 0.1  # nats: how surprising a tile is of which nothing is known; what lies beside what is known mostly goes on
 
+Mask = NDArray[np.bool_]
+
 _OFFSETS = np.array([mg.view_offsets(heading).reshape(-1, 2) for heading in range(4)])
+
+
+@dataclass(frozen=True, slots=True)
+class Masks:
+    """`[y, x]` truth values: can one stand there, is it a wall, a door, known at all, and does it join rooms.
+
+    What joins rooms is a door, or a gap between walls on opposite sides. A gap of which one side was not seen counts
+    where the wall on the other side ends beside it.
+    """
+
+    free: Mask
+    wall: Mask
+    door: Mask
+    known: Mask
+    narrow: Mask
 
 
 class RoomMap:
@@ -35,9 +54,11 @@ class RoomMap:
         self._evidence = np.zeros((SIDE, SIDE, len(self._words.codes)))
         self.tile: NDArray[np.int64] = np.full((SIDE, SIDE), UNKNOWN, dtype=np.int64)
         self._stood: set[mg.Tile] = set()
+        self._masks: Masks | None = None
 
     def clear(self) -> None:
         """Forget everything."""
+        self._masks = None
         self._evidence[:] = 0.0
         self.tile[:] = UNKNOWN
         self._stood.clear()
@@ -51,7 +72,7 @@ class RoomMap:
         for x, y, evidence, number in kept:
             if 0 <= x + dx < SIDE and 0 <= y + dy < SIDE:
                 self._evidence[y + dy, x + dx], self.tile[y + dy, x + dx] = evidence, number
-        self._stood = stood
+        self._stood, self._masks = stood, None
         return CENTRE, CENTRE
 
     def log_likelihood(self, poses: NDArray[np.int64], view: View) -> NDArray[np.float64]:
@@ -76,11 +97,13 @@ class RoomMap:
         self._evidence[y, x] = evidence
         self.tile[y, x] = evidence.argmax(axis=1)
         self._stood.add(pose[:2])
+        self._masks = None
 
     def unlearn(self, tile: mg.Tile) -> None:
         """Forget a tile that has been changed."""
         self._evidence[tile[1], tile[0]] = 0.0
         self.tile[tile[1], tile[0]] = UNKNOWN
+        self._masks = None
 
     def evidence(self, tiles: Iterable[mg.Tile]) -> NDArray[np.float64]:
         """`[K]` evidence for each kind of tile, summed over tiles of which something is known."""
@@ -112,38 +135,30 @@ class RoomMap:
         return int(self._words.floor[self.tile[tile[1], tile[0]]])
 
     def narrow(self, tile: mg.Tile) -> bool:
-        """Whether a tile joins rooms: a door, or a gap between walls on opposite sides.
+        """Whether a tile joins rooms; see `masks`."""
+        return bool(self.masks().narrow[tile[1], tile[0]])
 
-        A gap of which one side was not seen counts where the wall on the other side ends beside it.
-        """
-        if self.door(tile):
-            return True
-        x, y = tile
-        for dx, dy in ((1, 0), (0, 1)):
-            sides = ((x - dx, y - dy), (x + dx, y + dy))
-            walls = tuple(map(self.wall, sides))
-            if all(walls):
-                return True
-            if any(walls) and not all(map(self.known, sides)) and self._ends(tile, sides[walls.index(True)], (dy, dx)):
-                return True
-        return False
+    def masks(self) -> Masks:
+        """What the tiles are, as truth values; worked out anew where the map has changed."""
+        if self._masks is None:
+            words, tile = self._words, self.tile
+            free, wall, door = words.free[tile], words.wall[tile], words.door[tile]
+            known = tile != UNKNOWN
+            for x, y in self._stood:
+                free[y, x] = known[y, x] = True
+            self._masks = Masks(free, wall, door, known, _narrow(free, wall, door, known))
+        return self._masks
 
-    def room(self, tile: mg.Tile) -> set[mg.Tile]:
-        """The tiles of floor that hang together with this one, doors and gaps left out."""
-        found, queue = {tile}, [tile]
-        while queue:
-            for _, other in around(queue.pop()):
-                if other not in found and self.free(other) and not self.narrow(other):
-                    found.add(other)
-                    queue.append(other)
-        return found
+    def room(self, tile: mg.Tile) -> NDArray[np.bool_]:
+        """`[y, x]` the tiles of floor that hang together with this one, doors and gaps left out."""
+        from scipy.ndimage import label  # slow to import
 
-    def _ends(self, tile: mg.Tile, wall: mg.Tile, along: tuple[int, int]) -> bool:
-        return any(
-            self.free((tile[0] + s * along[0], tile[1] + s * along[1]))
-            and self.free((wall[0] + s * along[0], wall[1] + s * along[1]))
-            for s in (-1, 1)
-        )
+        masks = self.masks()
+        floor = masks.free & ~masks.narrow
+        floor[tile[1], tile[0]] = True
+        labelled: Any = label(floor)
+        parts = labelled[0]
+        return parts == parts[tile[1], tile[0]]
 
     def _places(self, poses: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         where = poses[:, None, :2] + _OFFSETS[poses[:, 2]]
@@ -155,3 +170,21 @@ def around(tile: mg.Tile) -> Iterator[tuple[int, mg.Tile]]:
     """The four tiles beside one, each with its direction."""
     for heading, (dx, dy) in enumerate(mg.AHEAD):
         yield heading, (tile[0] + dx, tile[1] + dy)
+
+
+def shifted(mask: Mask, heading: int, by: int = 1) -> Mask:
+    """Whether the tile so far ahead, in that direction, is in the mask."""
+    dx, dy = mg.AHEAD[heading]
+    return np.roll(mask, (-dy * by, -dx * by), axis=(0, 1))
+
+
+def _narrow(free: Mask, wall: Mask, door: Mask, known: Mask) -> Mask:
+    walls, unknown = [shifted(wall, h) for h in range(4)], [~shifted(known, h) for h in range(4)]
+    found = door | (walls[0] & walls[2]) | (walls[1] & walls[3])
+    for side in range(4):
+        half = walls[side] & unknown[(side + 2) % 4]
+        if half.any():
+            beside = shifted(free, side)
+            for along in ((side + 1) % 4, (side + 3) % 4):
+                found |= half & shifted(free, along) & shifted(beside, along)
+    return found

@@ -38,6 +38,10 @@ class Vocabulary:
         """`[K, 3 * pixels * pixels]` how each looks in tiles of that size."""
         return _looks(pixels)
 
+    def exact(self, pixels: int) -> dict[bytes, int]:
+        """The number of each tile by its pixels."""
+        return _exact(pixels)
+
 
 @lru_cache(maxsize=1)
 def vocabulary() -> Vocabulary:
@@ -56,3 +60,8 @@ def vocabulary() -> Vocabulary:
 @lru_cache(maxsize=8)
 def _looks(pixels: int) -> NDArray[np.float64]:
     return np.array([mg.look_of(code, pixels=pixels).ravel() for code in mg.codes()], dtype=np.float64)
+
+
+@lru_cache(maxsize=8)
+def _exact(pixels: int) -> dict[bytes, int]:
+    return {mg.look_of(code, pixels=pixels).tobytes(): i for i, code in enumerate(mg.codes())}

@@ -14,7 +14,7 @@ LEFT, RIGHT, FORWARD, PICKUP, DROP, TOGGLE, NOTHING = range(7)
 
 _KEEP, _FEW = 1e-4, 64
 _LOST = 10.0  # nats by which the best pose must be worse than one of which nothing is known
-SURE = 0.9
+SURE = 0.7
 """Belief in one pose from which on the map learns."""
 
 
@@ -42,8 +42,11 @@ class Whereabouts:
         return self._slips / self._moves
 
     def update(self, action: int, view: View, known: RoomMap) -> None:
-        """Take in what is seen after an action; `NOTHING` where none was taken."""
+        """Take in what is seen after an action; `NOTHING` where none was taken. What was toggled is forgotten."""
         poses, prior, meant = self._ahead(action, known)
+        if action == TOGGLE:  # it stood in the way until then
+            x, y, heading = self.pose
+            known.unlearn((x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]))
         log_p = np.log(prior) + known.log_likelihood(poses, view)
         best = float(log_p.max())
         self.lost = best < known.novelty(view) - _LOST

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .cells import Cell, Key, Row, kept_rows, run_cell, run_cells
     from .exploring import ExploreRun, exploration, explore, explore_many, frontier_steps, oracle_steps, summarise, walk
-    from .goals import WEIGHT, check_goal, parse_goal
+    from .goals import WEIGHT, check_goal, parse_goal, shortest
     from .judging import BELIEVED, Trail, Verdict, judge
     from .kidnapping import KidnapRun, check_kidnap, kidnap, kidnap_many, kidnap_result
     from .knowledge import Truth
@@ -18,23 +18,25 @@ if TYPE_CHECKING:
     from .parts import AGENTS, CSCG, Maker, Parts
     from .pool import WorkerLostError, completed, map_seeds, map_tasks, workers
     from .records import Record, mean, std
+    from .registered import IdRun, ids_result, is_registered, run_id, run_ids
     from .running import Moment, Run, run
     from .session import Session, chart_of, default_steps, draw_start, explored, set_out
     from .text import count, number, spread
     from .yardsticks import frontier_mean, tour_steps
 
 __all__ = [
-    "AGENTS", "BELIEVED", "CSCG", "WEIGHT", "Cell", "ExploreRun", "Key", "KidnapRun", "Ledger", "Maker", "Moment",
-    "NavigateRun", "Parts", "Record", "Row", "Run", "Session", "Trail", "Truth", "Verdict", "WorkerLostError",
-    "chart_of", "check_goal", "check_kidnap", "check_outputs", "completed", "count", "default_steps", "draw_start",
-    "exploration", "explore", "explore_many", "explored", "file_named", "frontier_mean", "frontier_steps", "judge",
-    "kept_rows", "kidnap", "kidnap_many", "kidnap_result", "map_seeds", "map_tasks", "mean", "navigate",
-    "navigate_many", "navigate_result", "number", "oracle_steps", "parse_goal", "picture_of", "run", "run_cell",
-    "run_cells", "set_out", "spread", "std", "summarise", "tour_steps", "unused", "walk", "workers", "write_json",
+    "AGENTS", "BELIEVED", "CSCG", "WEIGHT", "Cell", "ExploreRun", "IdRun", "Key", "KidnapRun", "Ledger", "Maker",
+    "Moment", "NavigateRun", "Parts", "Record", "Row", "Run", "Session", "Trail", "Truth", "Verdict",
+    "WorkerLostError", "chart_of", "check_goal", "check_kidnap", "check_outputs", "completed", "count",
+    "default_steps", "draw_start", "exploration", "explore", "explore_many", "explored", "file_named",
+    "frontier_mean", "frontier_steps", "ids_result", "is_registered", "judge", "kept_rows", "kidnap", "kidnap_many",
+    "kidnap_result", "map_seeds", "map_tasks", "mean", "navigate", "navigate_many", "navigate_result", "number",
+    "oracle_steps", "parse_goal", "picture_of", "run", "run_cell", "run_cells", "run_id", "run_ids", "set_out",
+    "shortest", "spread", "std", "summarise", "tour_steps", "unused", "walk", "workers", "write_json",
     "write_picture",
 ]  # fmt: skip
 
-_EARLY = "text pool running output ledger records low_level parts judging knowledge session yardsticks"
+_EARLY = "text pool running output ledger records low_level registered parts judging knowledge session yardsticks"
 _MODULES = f"{_EARLY} goals exploring kidnapping navigating cells"
 
 

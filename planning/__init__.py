@@ -32,6 +32,7 @@ from .rollout import evaluate
 from .terms import (
     TERMS,
     Collision,
+    Cost,
     Learned,
     PositionInformation,
     Rollout,
@@ -56,6 +57,7 @@ __all__ = [
     "Best",
     "Choice",
     "Collision",
+    "Cost",
     "Exhaustive",
     "ExpectedFreeEnergy",
     "Frontier",

@@ -101,6 +101,7 @@ class Planner:
         starts: int = 32,
         cache: LocalCache | None = None,
         structure: MapHypotheses | None = None,
+        costs: NDArray[np.float64] | None = None,
         unseen: Sequence[bool] = (),
     ) -> Plan:
         """Cut the local model out of a map, make policies, evaluate them, choose one.
@@ -119,6 +120,7 @@ class Planner:
             starts: places to set out from, at most.
             cache: of the map, kept from plan to plan.
             structure: hypotheses about the map, which policies may tell apart.
+            costs: `[K]` what each action is expected to cost, for terms that ask.
             unseen: for each action, whether no sensor tells of its way, so that it is worth a try; none, unless told.
 
         Raises:
@@ -137,6 +139,7 @@ class Planner:
             cache=cache,
             beyond=self.policies.beyond,
             structure=structure,
+            costs=costs,
             explorer=None if self.explorer is None else self.explorer.found,
             unseen=unseen,
         )

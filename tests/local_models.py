@@ -36,6 +36,7 @@ def random_model(
         A = rng.dirichlet(np.full(sights, 0.5), places).T
     blocked = rng.random((places, kinds))
     blocked[:, motions.stay] = 0.0
+    senses = tuple(rng.dirichlet(np.full(3, 0.5), places).T for _ in range(int(rng.integers(3))))
     untried = rng.random((places, kinds)) * (rng.random((places, kinds)) < 0.4) if seed % 2 else None
     if untried is not None:
         untried[:, motions.stay] = 0.0
@@ -59,6 +60,9 @@ def random_model(
         },
         successor=rng.integers(-1, places, (places, kinds)),
         entered=rng.random(places) < 0.6,
+        senses=senses,
+        looks=bool(rng.random() < 0.5),
+        costs=rng.random(kinds) if rng.random() < 0.5 else None,
         position=np.where(
             rng.random((places, 1)) < 0.8, rng.normal(size=(places, len(motions.displacements[0]))), np.nan
         ),

@@ -12,7 +12,7 @@ from cogmap.experiments import Trail, Verdict
 from cogmap.experiments.running import Moment
 from cogmap.inference import TrackerOptions, infer
 from cogmap.model import CogmapError, NoPose, Sight
-from cogmap.worlds import NoisyWorld, UnseenWays, load_world, place_of, torus
+from cogmap.worlds import NoisyWorld, UnseenWays, load_world, place_of, ring, torus
 
 
 def walked(world: Any, agent: Agent, steps: int, *, seed: int = 0, moves: dict[int, Any] | None = None) -> Trail:
@@ -120,6 +120,25 @@ def test_ways_that_no_sensor_tells_of_are_tried(pose: NoPose | None, name: str, 
     agent = Agent(world.unwrapped.motions, sensors=[Sight("sight")], pose=pose, settings=Settings(look_ahead=4), seed=0)
     verdict = walked(world, agent, steps).verdict(agent, world.unwrapped.chart)
     assert (verdict.map_right, verdict.places, verdict.known) == (True, 9, 1.0)
+
+
+def test_the_map_holds_ways_that_lead_one_way_only() -> None:
+    world = ring(6, seed=1)
+    agent = Agent(world.motions, seed=1)
+    trail = walked(world, agent, 24, seed=1)
+    verdict = trail.verdict(agent, world.unwrapped.chart)
+    assert (verdict.map_right, verdict.places, verdict.known) == (True, 6, 1.0)
+    learned = {each.name: each.mean for each in agent.learned_rates}
+    assert learned["undone"] < 0.9
+    assert learned["way_misread"] < 0.02
+
+
+def test_where_nothing_else_is_left_even_what_is_hardly_probable_is_told_apart() -> None:
+    world = torus(4, 4, diagonal=3, seed=100_000)
+    agent = Agent(world.motions, settings=Settings(look_ahead=4), seed=100)
+    trail = walked(world, agent, 60, seed=100)
+    verdict = trail.verdict(agent, world.unwrapped.chart)
+    assert (verdict.map_right, verdict.places) == (True, 16)
 
 
 def test_hypotheses_say_what_they_differ_in_and_are_saved(tmp_path: Path) -> None:

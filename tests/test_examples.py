@@ -1,8 +1,10 @@
 from __future__ import annotations
 
 import ast
+import json
 import os
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -11,15 +13,23 @@ import pytest
 
 FOLDER = Path(__file__).parent.parent / "examples"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
+LECTURE = FOLDER / "lecture.ipynb"
 SAYS = {
     "inspect_factor_graph": ("M(moved20)", "{0: 0.5, 1: 0.5}", "less log evidence"),
     "kidnap_and_recover": ("P(moved) 1.000", "not certain", "still 16 places"),
     "own_factor_graph": ("evidence lower bound", "P(today | the day before)", "fever"),
+    "own_gymnasium": ("step 0: in room 3, sees lab", "6 places, 6 visited", "free energy"),
+    "own_loop": ("16 visited", "certain: True", "at step 25", "it would go"),
     "own_maze": ("half way", "15 visited", "15 steps; the shortest walk through all rooms has 15"),
     "quickstart": ("16 visited", "sight_information", "free energy"),
     "watch_it_grow": ("seen up of place 0", "'place': 9"),
 }
-DRAWS = {"own_maze": {"house.png"}, "quickstart": {"map.npz"}, "watch_it_grow": {"growth.gif", "growth.png"}}
+DRAWS = {
+    "own_loop": {"robot.npz"},
+    "own_maze": {"house.png"},
+    "quickstart": {"map.npz"},
+    "watch_it_grow": {"growth.gif", "growth.png"},
+}
 
 
 def run(script: Path, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -70,6 +80,31 @@ def test_it_is_short_and_says_what_one_learns(script: Path) -> None:
 
 
 def test_every_script_is_in_the_list() -> None:
-    listed = re.findall(r"\((\w+\.py)\)", (FOLDER / "README.md").read_text("utf-8"))
-    assert sorted(listed) == [script.name for script in SCRIPTS]
+    listed = re.findall(r"\((\w+\.(?:py|ipynb))\)", (FOLDER / "README.md").read_text("utf-8"))
+    assert sorted(listed) == sorted([*(script.name for script in SCRIPTS), LECTURE.name])
     assert set(SAYS) == {script.stem for script in SCRIPTS}
+
+
+def test_the_lecture_runs_and_shows_maps_plans_and_beliefs() -> None:
+    pytest.importorskip("mkdocs")
+    notebooks = runpy.run_path(str(FOLDER.parent / "docs" / "hooks" / "notebooks.py"))
+    content = json.loads(LECTURE.read_text("utf-8"))
+    assert (content["nbformat"], len({cell["id"] for cell in content["cells"]})) == (4, len(content["cells"]))
+    assert not any(cell.get("outputs") for cell in content["cells"])  # they are made anew, and not kept
+    cells = notebooks["run_notebook"](LECTURE)
+    shown = [cell.shown for cell in cells if cell.shown]
+    assert len(shown) >= 6
+    assert sum("<svg" in part for part in shown) >= 3
+    split, mended = (cell.shown for cell in cells if "dim.belief" in cell.source)
+    assert split.count("0.5") == 2
+    assert mended.count("<tr>") == 2  # one place, under its heading
+    assert any(cell.figure.startswith(b"\x89PNG") for cell in cells)
+
+
+def test_a_notebook_that_fails_ends_the_build(tmp_path: Path) -> None:
+    errors = pytest.importorskip("mkdocs.exceptions")
+    notebooks = runpy.run_path(str(FOLDER.parent / "docs" / "hooks" / "notebooks.py"))
+    bad = tmp_path / "bad.ipynb"
+    bad.write_text(json.dumps({"cells": [{"cell_type": "code", "source": ["x = 1\n", "x / 0"]}]}))
+    with pytest.raises(errors.PluginError, match=r"bad\.ipynb: a cell fails"):
+        notebooks["notebook_page"](bad)

@@ -10,7 +10,7 @@ import pytest
 from cogmap.inference.hypotheses import NOWHERE, Sensed, Tracker, TrackerOptions, WayScheme
 from cogmap.inference.hypotheses.branches import branches, leads
 from cogmap.inference.hypotheses.chances import Chances
-from cogmap.inference.hypotheses.evidence import probability, way_odds
+from cogmap.inference.hypotheses.evidence import probability, same_door, way_odds
 from cogmap.inference.hypotheses.layered import Layered
 from cogmap.inference.hypotheses.pruning import alike
 from cogmap.inference.hypotheses.rates import MOVED, RATE_PRIORS, SQUARE, RateCounts, crp_evidence, crp_predictive
@@ -333,3 +333,28 @@ def test_squares_spare_an_agent_without_poses_the_walk_along_every_way(sights):
                 queue += [to] if to not in queue else []
     assert h.size == len(at) == 9
     assert inferred >= 2
+
+
+@given(st.floats(-3, 3), st.floats(-3, 3))
+def test_whether_two_sides_are_one_door_is_what_was_read_of_both(mine, its):
+    tracker = Tracker(LATTICE)
+    walk(tracker, Grid([[0, 1]]), "R")
+    h = tracker.best.fork()
+    one, other = h.places[0], h.places[1]
+    sides = (
+        (*one.ways[:3], one.ways[3]._replace(net=mine)),
+        (*other.ways[:2], other.ways[2]._replace(net=its), other.ways[3]),
+    )
+    h.put(1, other._replace(ways=sides[1]))
+    chances, total = h.chances, {True: 0.0, False: 0.0}
+    for here, there, same in product((True, False), repeat=3):
+        p = (chances.open if here else 1 - chances.open) * (chances.undone if same else 1 - chances.undone)
+        p *= float(here == there) if same else chances.open if there else 1 - chances.open
+        total[same] += p * exp(
+            (mine if here else -mine) * chances.unit / 2 + (its if there else -its) * chances.unit / 2
+        )
+    found = same_door(h, one._replace(ways=sides[0]), 3, 1, 0)
+    if mine == 0.0 or its == 0.0:
+        assert found is None
+    else:
+        assert found == pytest.approx(total[True] / (total[True] + total[False]), abs=1e-9)

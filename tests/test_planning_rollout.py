@@ -10,10 +10,13 @@ from cogmap.model.errors import CogmapError
 from cogmap.planning import (
     POLICIES,
     TERMS,
+    Cost,
     ExpectedFreeEnergy,
+    LocalModel,
     MapGuided,
     Policies,
     SelfAvoiding,
+    StateInformation,
     Transitions,
     evaluate,
     evaluate_plain,
@@ -24,11 +27,12 @@ from hypothesis import strategies as st
 from local_models import GRID, LINE, grid_model, random_model
 
 NAMES = [term.name for term in TERMS]
+ALL = (*TERMS, Cost(price=0.3))
 HALL = [(0, j) for j in range(5)]
 
 
 def assert_same(ours: ExpectedFreeEnergy, plain: ExpectedFreeEnergy) -> None:
-    for name in NAMES:
+    for name in ours.names:
         np.testing.assert_allclose(ours[name], plain[name], atol=1e-9, err_msg=name)
 
 
@@ -44,7 +48,7 @@ def test_equals_the_plain_evaluation(seed: int, name: str, motions, places: int,
     look_ahead = 3 if motions is LINE else 2
     model = random_model(seed, motions=motions, places=places, look_ahead=look_ahead, sparse=sparse)
     policies = POLICIES[name]().make(model)
-    assert_same(evaluate(model, policies), evaluate_plain(model, policies))
+    assert_same(evaluate(model, policies, ALL), evaluate_plain(model, policies, ALL))
 
 
 @settings(max_examples=20, deadline=None)
@@ -170,6 +174,45 @@ def test_state_information_of_a_lost_agent_is_one_bit() -> None:
     terms = evaluate(model, Policies(np.array([[1], [2]])))
     assert terms["state_information"][0] == pytest.approx(np.log(2))
     assert terms["state_information"][1] == 0.0  # to stay is to look again at what was seen
+
+
+def test_ways_and_further_sensors_tell_a_lost_agent_where_it_is() -> None:
+    """Four places with two labels of one sensor, two of another and one way: exact where places differ altogether."""
+    places, blocked = np.eye(4), np.zeros((4, 3))
+    model = random_model(0, motions=LINE, places=4, sights=2, look_ahead=1)
+    model = replace(model, B=Transitions.of(np.repeat(places[:, :, None], 3, axis=2)), belief=np.full(4, 0.25))
+    model = replace(model, A=np.array([[1.0, 1, 0, 0], [0, 0, 1, 1]]), multiplicity=np.ones(2), log_C=np.zeros(2))
+    model = replace(model, information_weight=1.0, senses=(), looks=False, blocked=blocked)
+    step = Policies(np.array([[0]]))
+
+    def told(model: LocalModel, **options: bool) -> float:
+        return float(evaluate(model, step, [StateInformation(**options)])["state_information"][0])
+
+    assert told(model) == pytest.approx(np.log(2))
+    smells = replace(model, senses=(np.array([[1.0, 0, 1, 0], [0, 1, 0, 1]]),))
+    assert told(smells) == pytest.approx(np.log(4))
+    blocked[1, 0] = blocked[3, 0] = 1.0
+    assert told(replace(model, blocked=blocked)) == pytest.approx(np.log(2))  # nothing senses ways
+    assert told(replace(model, blocked=blocked, looks=True)) == pytest.approx(np.log(4))
+    assert told(replace(model, blocked=blocked, looks=True), ways=False) == pytest.approx(np.log(2))
+    noisy = replace(model, blocked=0.1 + 0.8 * blocked, looks=True)
+    exact = np.log(4) + 0.9 * np.log(0.9) + 0.1 * np.log(0.1)
+    assert np.log(2) < told(noisy) < exact  # a bound from below
+    sure = replace(model, belief=np.eye(4)[0], blocked=blocked, looks=True)
+    assert told(sure) == pytest.approx(0.0)
+
+
+def test_the_cost_of_moves_is_a_term_that_can_be_asked_for() -> None:
+    model = replace(random_model(1, motions=LINE, look_ahead=2), discount=1.0, costs=np.array([3.0, 0.5, 0.0]))
+    energy = evaluate(model, Policies(np.array([[0, 1], [1, 2], [2, 2]])), [Cost(price=0.1)])
+    np.testing.assert_allclose(energy["cost"], [0.35, 0.05, 0.0])
+    np.testing.assert_allclose(energy.G, energy["cost"])
+    assert not evaluate(replace(model, costs=None), Policies(np.array([[0, 1]])), [Cost()])["cost"].any()
+    for price in (-1.0, np.inf, np.nan):
+        with pytest.raises(CogmapError, match=r"cost: price is .*; give a finite number"):
+            Cost(price=price)
+    with pytest.raises(CogmapError, match=r"costs has a cost below 0"):
+        replace(model, costs=np.array([-1.0, 0.0, 0.0])).check()
 
 
 def test_terms_add_up_and_explain_themselves() -> None:

@@ -22,6 +22,7 @@ from toy_study import NASTY, Tabled, Toy
 NAMES = [
     "buildings",
     "cost",
+    "distances",
     "donut",
     "exploration",
     "goals",
@@ -98,7 +99,7 @@ def test_every_study_is_found_and_says_what_it_asks() -> None:
 
 
 def test_unknown_studies_are_refused() -> None:
-    with pytest.raises(CogmapError, match=r"no study is called 'x'; choose one of cost, donut.*, or all"):
+    with pytest.raises(CogmapError, match=r"no study is called 'x'; choose one of cost, distances.*, or all"):
         study_named("x")
 
 

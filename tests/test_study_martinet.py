@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from cogmap.experiments import workers
-from cogmap.experiments.studies import run_study, study_named
+from cogmap.experiments.studies import martinet, run_study, study_named
 from cogmap.model import CogmapError
 
 STUDY: Any = study_named("martinet")
@@ -67,6 +67,17 @@ def test_shares_and_preferences(rows: list[Any]) -> None:
     assert SMALL.summarise([made(rows, 2)]).json["summary"]["preferences"][2]["p_value"] is None
     texts = {text.get_text() for ax in found.figures["martinet_routes"]().axes for text in ax.texts}
     assert {"71%", "29%", "2 > 3, p < 1"} <= texts
+
+
+def test_steps_are_spent_where_the_runs_led(rows: list[Any]) -> None:
+    shares = martinet.occupancy(rows, "B closed")
+    assert sum(shares.values()) == pytest.approx(1.0)
+    assert set(shares) == {room for row in rows for run in row.runs if run.condition == "B closed" for room in run.path}
+    assert martinet.maze.B not in shares
+    figure = SMALL.summarise(rows).figures["martinet_occupancy"]()
+    texts = {text.get_text() for text in figure.axes[2].texts}
+    assert f"{max(shares.values()):.0%}" in texts
+    assert martinet.occupancy([], "free") == {}
 
 
 def test_what_is_left(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+NOTEBOOKS = sorted((ROOT / "examples").glob("*.ipynb"))
 PAGES = {
     "README.md": "index.md",
     "CHANGELOG.md": "changelog.md",
@@ -22,7 +23,7 @@ PAGES = {
     "LICENSE": "licence.md",
     "benchmarks/README.md": "benchmarks.md",
     "examples/README.md": "examples/index.md",
-    **{f"examples/{path.name}": f"examples/{path.stem}.md" for path in EXAMPLES},
+    **{f"examples/{path.name}": f"examples/{path.stem}.md" for path in [*EXAMPLES, *NOTEBOOKS]},
 }
 """Where the site has what the repository has outside `docs/`."""
 
@@ -31,8 +32,8 @@ LINK = re.compile(r"\]\((?!https?://|#)([^)\s#]+)(#[^)\s]*)?\)")
 
 def example_uris() -> list[str]:
     """The pages of the examples, in the order of `examples/README.md`; those that it forgot come last."""
-    listed = re.findall(r"\((\w+)\.py\)", (ROOT / "examples" / "README.md").read_text("utf-8"))
-    names = dict.fromkeys([*listed, *(path.stem for path in EXAMPLES)])
+    listed = re.findall(r"\((\w+)\.(?:py|ipynb)\)", (ROOT / "examples" / "README.md").read_text("utf-8"))
+    names = dict.fromkeys([*listed, *(path.stem for path in [*EXAMPLES, *NOTEBOOKS])])
     return ["examples/index.md", *(f"examples/{name}.md" for name in names)]
 
 

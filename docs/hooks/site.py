@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import equations
+import notebooks
 import reference
 import repository
 import running
@@ -48,6 +49,11 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
         text = repository.example_page(path, outcome.text, running.shown_pictures(outcome.pictures, "", uri))
         files.append(File.generated(config, uri, content=text))
         _add_pictures(outcome.pictures, uri, files, config)
+    for path in repository.NOTEBOOKS:
+        uri, page = repository.PAGES[f"examples/{path.name}"], notebooks.notebook_page(path)
+        files.append(File.generated(config, uri, content=page.markdown))
+        files.append(File.generated(config, f"examples/{path.name}", content=path.read_bytes()))
+        _add_pictures(page.pictures, uri, files, config)
     return files
 
 

@@ -72,8 +72,17 @@ def explore_command(
     from ... import experiments as lab
     from ...model import GROWTHS, CogmapError
     from ...views import explore_figure
+    from .registered import run_registered
     from .walk_text import show_walk
 
+    if lab.is_registered(world):
+        refused = {"--agent": agent != "cogmap", "--noise": bool(noise), "--sights": sights is not None}
+        refused |= {"--tiles": tiles is not None, "--steps": steps is not None, "--growth": growth != "predicted"}
+        refused |= {"--save": save is not None, "--trace": trace is not None, "--out": out is not None}
+        refused |= {"--dask": dask is not None, "--pose": pose is not None}
+        how: Any = {"view": view, "runs": runs, "seed": seed, "look_ahead": look_ahead, "max_steps": max_steps}
+        run_registered(world, errand=False, **how, jobs=jobs, json=json, refused=refused)
+        return
     lower: Any = {"view": view, "tiles": tiles}
     place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))

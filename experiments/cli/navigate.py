@@ -10,7 +10,14 @@ from ..text import count, number, place_text, say, say_saved, seeds_of
 from . import options as opt
 from .progress import counting
 
-Goal = Annotated[str, typer.Option(metavar="LABEL", help="The label to go to; the agent is there when it stays.")]
+Goal = Annotated[
+    str | None,
+    typer.Option(
+        metavar="LABEL",
+        help="The label to go to; the agent is there when it stays. An environment of MiniGrid has a goal of its own.",
+        show_default=False,
+    ),
+]
 Unexplored = Annotated[bool, typer.Option("--unexplored", help="Set out in an unknown maze.")]
 Close = Annotated[
     list[str] | None,
@@ -21,7 +28,7 @@ Weight = Annotated[float, typer.Option(help="W: log preference of the goal over 
 
 def navigate_command(
     world: opt.World,
-    goal: Goal,
+    goal: Goal = None,
     agent: opt.Agent = "cogmap",
     unexplored: Unexplored = False,
     runs: opt.Runs = None,
@@ -50,9 +57,22 @@ def navigate_command(
     Exit code 0, or 1 where the one run (without --runs) did not reach it.
     """
     from ... import experiments as lab
+    from ...model import CogmapError
+    from .registered import run_registered
     from .tracing import Tracing, check_trace
 
     check_trace(agent, trace)
+    if lab.is_registered(world):
+        known = "setting out in a world that it knows (without --unexplored)"
+        refused = {"--goal": goal is not None, known: not unexplored}
+        refused |= {"--agent": agent != "cogmap", "--noise": bool(noise), "--sights": sights is not None}
+        refused |= {"--tiles": tiles is not None, "--turned": turned, "--close": bool(close)}
+        refused |= {"--trace": trace is not None, "--dask": dask is not None, "--pose": pose is not None}
+        how: Any = {"view": view, "runs": runs, "seed": seed, "look_ahead": look_ahead, "max_steps": max_steps}
+        run_registered(world, errand=True, **how, jobs=jobs, json=json, refused=refused)
+        return
+    if goal is None:
+        raise CogmapError(f"navigate: {world} has no goal of its own; give --goal LABEL")
     lower: Any = {"view": view, "tiles": tiles, "turned": turned, "goal": goal}
     place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
     label, name, many = lab.parse_goal(place, goal), lab.chart_of(place).name, runs or 1

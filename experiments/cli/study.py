@@ -18,7 +18,7 @@ Name = Annotated[
     str,
     typer.Argument(
         metavar="NAME",
-        help="exploration, rooms, growth, cost, identity, localisation, "
+        help="exploration, rooms, growth, cost, distances, identity, localisation, "
         "goals, donut, tolman, martinet, insight, mice, buildings; or all.",
         show_default=False,
     ),

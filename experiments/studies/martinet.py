@@ -6,6 +6,7 @@ network model, PLoS Comput. Biol. 7(5): e1002045, 2011, section "Tolman & Honzik
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -16,11 +17,11 @@ import numpy as np
 from scipy import stats
 
 from ...agent import Agent, Settings
-from ...views import theme_of
-from ...worlds import Door
+from ...views import plot_world, theme_of
+from ...worlds import Door, Position
 from .. import Moment
 from . import tolman_maze as maze
-from .figures import Axes, Figure, panels, plot_bars, shares_axis
+from .figures import Axes, Figure, draw_room, panels, plot_bars, shares_axis
 from .intervals import Interval, bootstrap
 from .study import Findings, Study
 from .tolman_maze import BRANCHES, ROUTES, START
@@ -49,6 +50,7 @@ class Run:
     condition: str  # `forced`, `free`, `A closed` or `B closed`
     route: int | None  # by which the goal was reached; after a block, the one then chosen; None if neither came about
     steps: int | None  # until the goal, None if it was not reached
+    path: tuple[Position, ...] = ()  # the rooms it was in, one after the other
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +117,10 @@ class Martinet(Study[int, MartinetRow]):
         summary = {**counted, "shares": shares, "preferences": preferences}
         json = {"world": maze.MAZE.name, "protocol": protocol, "rows": rows, "summary": summary}
         whole = f"{len(rows)} agents, {self.days} days of training; the goal reached in {reached}/{len(runs)} runs"
-        figures = {"martinet_routes": partial(_figure, len(rows), self.days, shares, preferences)}
+        figures = {
+            "martinet_routes": partial(_figure, len(rows), self.days, shares, preferences),
+            "martinet_occupancy": partial(_maps, {name: occupancy(rows, name) for name in CONDITIONS}),
+        }
         failed = [f"goal reached in {reached} of {len(runs)} runs"] if reached < len(runs) else []
         return Findings(json, [whole, *_lines(shares, preferences)], figures, failed=failed)
 
@@ -141,10 +146,17 @@ def _run(agent: Agent, day: int, condition: str, forced: int = 0) -> Run:
     path, steps = maze.walk(agent, world, steps=MOST, ends=True, watch=open_when_met)
     if room is None:
         gates = [maze.GATES[place] for place in path if place in maze.GATES]
-        return Run(day, condition, None if steps is None else forced or gates[-1], steps)
+        return Run(day, condition, None if steps is None else forced or gates[-1], steps, tuple(path))
     later = path[path.index(maze.BEFORE[room]) :] if maze.BEFORE[room] in path else ()
     chosen = [BRANCHES[to] for at, to in pairwise(later) if at == START and to in BRANCHES]
-    return Run(day, condition, next((route for route in chosen if route != 1), None), steps)
+    return Run(day, condition, next((route for route in chosen if route != 1), None), steps, tuple(path))
+
+
+def occupancy(rows: Sequence[MartinetRow], condition: str) -> dict[Position, float]:
+    """Share of all steps that was spent in each room under that condition; of the free runs those of the first day."""
+    runs = [run for row in rows for run in row.runs if run.condition == condition]
+    steps = Counter(room for run in runs if condition != "free" or run.day == 1 for room in run.path)
+    return {room: count / steps.total() for room, count in sorted(steps.items())}
 
 
 def _of_all(rows: Sequence[MartinetRow], condition: str, values: Sequence[int]) -> Interval | None:
@@ -194,6 +206,23 @@ def _figure(agents: int, days: int, shares: Shares, preferences: Sequence[dict[s
         for number, one in enumerate(one for one in preferences if one["condition"] == name):
             _bracket(ax, one["more"], one["less"], one["p_value"], CONDITIONS[name], 1.1 + 0.1 * number)
     shares_axis(axes[0], "share of the runs that count", high=1.32)
+    return figure
+
+
+def _maps(shares: dict[str, dict[Position, float]]) -> Figure:
+    """The maze, its rooms the darker the more steps were spent in them; after the original's occupancy maps."""
+    figure, axes = panels("Where the steps were spent (share of all steps under the condition)", (1, 3), (10.5, 4.6))
+    titles = ("first day, nothing closed", "A closed", "last day, B closed")
+    for ax, (condition, part), title in zip(axes, shares.items(), titles, strict=True):
+        shut = {"A closed": maze.A, "B closed": maze.B}.get(condition)
+        plot_world(maze.MAZE, closed=[] if shut is None else [shut], title=title, ax=ax)
+        theme, most = theme_of(ax), max(part.values(), default=1.0)
+        for room in maze.MAZE.rooms:
+            share = part.get(room, 0.0)
+            draw_room(ax, room, facecolor=theme.shade(0.9 * share / most), edgecolor=theme.shade(0.5), zorder=5)
+            ink = theme.paper if share > 0.5 * most else theme.ink
+            text = f"{share:.0%}" if share >= 0.005 else ""
+            ax.text(room[1], room[0], text, color=ink, ha="center", va="center", size=8, zorder=6)
     return figure
 
 

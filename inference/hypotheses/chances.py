@@ -40,6 +40,7 @@ class Chances:
         misread, right, sight_unit: P(a sight is misread as a certain other label), P(it is read right), and the log
             odds that one reading is worth; a sensor each.
         labels: number of labels of each sensor, one never met included.
+        pairs: P(two sides are one door), by what was read of each, as far as it was worked out.
         doors: what so many readings of the other side of a door add, as far as it was worked out.
         fails, astray, moved, elsewhere, undone, new, relinked, square: as the rates are called.
     """
@@ -58,6 +59,7 @@ class Chances:
         "new",
         "odds",
         "open",
+        "pairs",
         "relinked",
         "right",
         "sight_unit",
@@ -84,6 +86,7 @@ class Chances:
         self.relinked, self.square = mean(RELINKED), mean(SQUARE)
         error = min(max(mean(SIGHT_MISREAD), SUREST), MOST_MISREAD)
         self.doors: dict[float, float] = {}
+        self.pairs: dict[tuple[float, float], float] = {}
         self.labels = tuple(labels)
         self.misread = tuple(error / n for n in labels)
         self.right = tuple(1.0 - error + each for each in self.misread)

@@ -123,6 +123,24 @@ def _same_door(chances: Chances, net: float) -> float:
     return found
 
 
+def same_door(h: Hypothesis, place: Place, way: int, other: int, number: int) -> float | None:
+    """P(a way and the way back are one door | what was read of both); None where nothing says it, or walks do."""
+    if h.scheme.inverse is None:
+        return None
+    mine, its = place.ways[way], h.places[other].ways[h.scheme.inverse[way]]
+    if not mine.net or not its.net or (mine.walks and its.walks) or (its.walks and its.to != number):
+        return None
+    chances, key = h.chances, (mine.net, its.net)
+    found = chances.pairs.get(key)
+    if found is None:
+        p, half = chances.open, 0.5 * chances.unit
+        one, two = exp(min(mine.net * half, 50.0)), exp(min(its.net * half, 50.0))
+        same = chances.undone * (p * one * two + (1.0 - p) / (one * two))
+        apart = (1.0 - chances.undone) * (p * one + (1.0 - p) / one) * (p * two + (1.0 - p) / two)
+        found = chances.pairs[key] = same / (same + apart)
+    return found
+
+
 def probability(odds: float) -> float:
     """1 / (1 + exp(-odds))."""
     return 1.0 / (1.0 + exp(-odds))

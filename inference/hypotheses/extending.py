@@ -8,7 +8,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_probability, odds_beyond, probability, sight_probability
+from .evidence import label_probability, odds_beyond, probability, same_door
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -213,17 +213,20 @@ def _count_looks(h: Hypothesis, sensed: Sensed) -> None:
 
 
 def seen(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -> SightCounts:
-    """The counts of a place after one more reading; a soft one counts by its posterior."""
+    """The counts of a place after one more reading; of likelihoods each label counts as the readings it is worth.
+
+    That is log P(reading | label) beyond that of a label which is not named, over what one sure reading is worth.
+    """
     if reading is None:
         return counts
     if isinstance(reading, int):
         return {**counts, reading: counts.get(reading, 0.0) + 1.0}
-    z = sight_probability(chances, sensor, counts, reading)
-    more = dict(counts)
+    misread, right = chances.misread[sensor], chances.right[sensor]
+    other, more = misread * sum(reading.values()), dict(counts)
     for label, likelihood in reading.items():
-        p = likelihood * label_probability(chances, sensor, counts, label) / z
-        if p > 1e-3:
-            more[label] = more.get(label, 0.0) + min(p, 1.0)
+        worth = log(1.0 + (right - misread) * likelihood / other) / chances.sight_unit[sensor]
+        if worth > 1e-3:
+            more[label] = more.get(label, 0.0) + worth
     return more
 
 
@@ -254,7 +257,7 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
 
     A door between two places is shared by both: each adds half of it.
     """
-    opened, blocked, wrong, right, beside, shut = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    opened, blocked, wrong, right, beside, shut, undone, one_way = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     chances = h.chances
     for index, way in enumerate(place.ways):
         other = h.neighbour(place, index)
@@ -269,11 +272,16 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
             shut += half * (1.0 - p) * known
             wrong += p * way.blocked + (1.0 - p) * way.open
             right += p * way.open + (1.0 - p) * way.blocked
+            if known and number != other and (same := same_door(h, place, index, other, number)) is not None:
+                undone += 0.5 * same
+                one_way += 0.5 * (1.0 - same)
     misread, read = 0.0, 0.0
     for sensor, counts in enumerate(place.sights):
+        if any(count % 1.0 for count in counts.values()):
+            continue  # likelihoods say themselves how sure they are
         for label, count in counts.items():
             p = label_probability(chances, sensor, counts, label)
             misread += count * (1.0 - p)
             read += count * p
-    share = Share(opened, blocked, wrong, right, misread, read, beside, shut)
+    share = Share(opened, blocked, wrong, right, misread, read, beside, shut, undone, one_way)
     return Place(place.sights, place.ways, place.frame, place.position, place.recent, place.into, share)

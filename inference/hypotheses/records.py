@@ -44,6 +44,8 @@ class Share(NamedTuple):
     sights_right: float = 0.0
     beside_open: float = 0.0
     beside_blocked: float = 0.0
+    undone: float = 0.0
+    one_way: float = 0.0
 
 
 class Place(NamedTuple):

@@ -18,7 +18,7 @@ from .layered import Layered, Shared
 from .lookback import Past
 from .options import Change
 from .rates import RATE_PRIORS, RateCounts
-from .records import NOWHERE, Place
+from .records import NOWHERE, Place, Share
 from .replaying import History
 from .scheme import WayScheme
 from .streams import DAMAGED, Reader, Writer
@@ -27,8 +27,8 @@ Arrays = dict[str, NDArray[Any]]
 
 VERSION = 1
 
-FIRST_RATES = 13
-"""Rates of a state that does not say how many it has."""
+FIRST_RATES, FIRST_SHARE = 13, 8
+"""Rates, and numbers of what a place shares, of a state that does not say how many it has."""
 
 
 @dataclass(slots=True)
@@ -85,6 +85,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         "change": [parts.change.kind, list(parts.change.places)],
         "length": parts.history.length,
         "rates": len(RATE_PRIORS),
+        "share": len(Share()),
     }
     arrays = out.rows()
     return {**header, "check": _checksum(header, arrays)}, arrays
@@ -112,7 +113,10 @@ def restored(scheme: WayScheme, state: Any) -> Parts:
     if described != _described(scheme):
         raise CogmapError("tracker: the state is of other ways or sensors; give the scheme that it was made with")
     try:
-        source = Reader(arrays["whole"], arrays["real"])
+        share = int(header.get("share", FIRST_SHARE))
+        if not FIRST_SHARE <= share <= len(Share()):
+            raise ValueError("its places share what none does")
+        source = Reader(arrays["whole"], arrays["real"], share=share)
         if _checksum(header, arrays) != header["check"]:
             raise ValueError("its numbers are not those that were written")
         return _read(scheme, header, source)

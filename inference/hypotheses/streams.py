@@ -83,7 +83,8 @@ class Reader:
         CogmapError: they are no rows of numbers, or end too soon.
     """
 
-    def __init__(self, whole: Any, real: Any) -> None:
+    def __init__(self, whole: Any, real: Any, *, share: int = len(Share())) -> None:
+        self._share = share
         self.whole, self.real = _row(whole, "whole", np.int64), _row(real, "real", np.float64)
         self._at = self._at_real = 0
         self._records: list[Place] = []
@@ -130,7 +131,7 @@ class Reader:
         into = frozenset((source, way) for source, way in self.many(lambda: self.numbers(2)))
         ways = [self._way() for _ in range(scheme.count)]
         sights = tuple(self.counts() for _ in range(scheme.sensors))
-        return Place(sights, tuple(ways), frame, tuple(position), tuple(recent), into, Share(*self.reals(8)))
+        return Place(sights, tuple(ways), frame, tuple(position), tuple(recent), into, Share(*self.reals(self._share)))
 
     def _way(self) -> Way:
         net, opened, blocked = self.reals(3)

@@ -192,8 +192,11 @@ class Transition(ModelFactor):
         if neighbour not in (place, *keys):
             self.table.rename(row, keys[0] if keys else ELSEWHERE, neighbour)
 
-    def learn(self, previous: int, action: int, next_: int, weight: float) -> None:
-        """A walked transition, weighted by its pairwise posterior; one that went nowhere was blocked (eq. B_up)."""
+    def learn(self, previous: int, action: int, next_: int, weight: float, *, back: bool = True) -> None:
+        """A walked transition, weighted by its pairwise posterior; one that went nowhere was blocked (eq. B_up).
+
+        It leads `back` too, unless that is known to be otherwise.
+        """
         if action == self.motions.stay:
             return
         if previous == next_:
@@ -201,7 +204,7 @@ class Transition(ModelFactor):
             return
         forward, reverse = self.rates.possible
         self.add(next_, previous, action, weight * forward)
-        if self.motions.inverse[action] >= 0:  # else nobody knows what undoes it
+        if back and self.motions.inverse[action] >= 0:  # else nobody knows what undoes it
             self.add(previous, next_, self.motions.inverse[action], weight * reverse)
         if weight > 0.5:
             self.walked.set((previous, action), True)

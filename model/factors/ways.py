@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from math import log
 from typing import Any
 
@@ -89,8 +89,8 @@ class Ways(Sensor):
             return float(np.log(looked).sum() - np.log(1.0 - p[self._motions.stay]))
         return (sum(way is not None for way in reading) - 1) * log(0.5)
 
-    def learn(self, place: int, reading: Looks, weight: float) -> None:
-        """What is sensed of the doors of `place`.
+    def learn(self, place: int, reading: Looks, weight: float, *, one_way: Collection[int] = ()) -> None:
+        """What is sensed of the doors of `place`; those of the actions `one_way` say nothing of their other side.
 
         Each look leaves the counts of one look at least, and takes the contrary away: many looks say no more than one,
         and what has faded comes back. The other side of a door learns of it when it changes. A look that is not sure
@@ -107,9 +107,10 @@ class Ways(Sensor):
             if before == (OPEN if is_open else BLOCKED) and self._settled(place, action, weight, is_open=is_open):
                 continue
             if is_open:
-                self._open(place, action, weight, before)
+                self._open(place, action, weight, before, both=action not in one_way)
             else:
-                self._transitions.shut(place, action, weight, changed=before != BLOCKED)
+                changed = before != BLOCKED and action not in one_way
+                self._transitions.shut(place, action, weight, changed=changed)
 
     def _weigh(self, place: int, action: int, weight: float, way: float) -> None:
         """Share the counts of one look between open and blocked, as is believed after a reading P(open) = `way`."""
@@ -137,9 +138,9 @@ class Ways(Sensor):
             return blocked == 0.0 and sum(counts.values()) >= weight * self._rates.imagined[0]
         return blocked >= -weight * self._rates.impossible[0] and not any(counts.values())
 
-    def _open(self, place: int, action: int, weight: float, before: int) -> None:
+    def _open(self, place: int, action: int, weight: float, before: int, *, both: bool) -> None:
         ways = self._transitions
-        beyond, inverse = ways.beyond(place, action), self._motions.inverse[action]
+        beyond, inverse = ways.beyond(place, action), self._motions.inverse[action] if both else -1
         forward, reverse = self._rates.impossible
         ways.add(place, place, action, weight * forward)
         if before == BLOCKED and beyond is not None and inverse >= 0:

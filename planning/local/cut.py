@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from ...model import ELSEWHERE, EMPTY, CogmapError, distinct
+from ...model import ELSEWHERE, EMPTY, CogmapError, SparseDirichlet, distinct
 from .cache import Cut, LocalCache, WayRows
 from .dormant import leave_out_dormant
 from .frontier import Frontier
@@ -19,6 +19,8 @@ from .structure import MapHypotheses, Structure
 from .transitions import Transitions, likeliest
 from .view import MapView
 
+FEW = 128
+"""Places up to which what their ways would tell of each is asked: the work is the square of their number."""
 SURE = 0.5
 """Belief in one place from which on an agent explores by options from there."""
 HOPE = 0.4
@@ -83,6 +85,7 @@ def local_model(
     cache: LocalCache | None = None,
     beyond: Callable[[Surroundings], Ints] = nothing_beyond,
     structure: MapHypotheses | None = None,
+    costs: Floats | None = None,
     explorer: Callable[[Surroundings], Frontier | None] | None = None,
     unseen: Sequence[bool] = (),
 ) -> LocalModel:
@@ -118,7 +121,8 @@ def local_model(
     cut = cache.cut(key, partial(_cut, map_, cache, places, within, open_, unseen))
     q = np.zeros(len(cut.places))
     q[cut.at] = belief
-    A, multiplicity, log_C = _sights(map_, within, preferences)
+    A, multiplicity, log_C = _sights(map_.A_o, within, preferences)
+    others = [sensor.table for sensor in map_.sights_sensed[1:]]
     seen = cache.sights(within)
     seen.position[-1] = np.nan
     seen.sights[-1] = cache.unseen()
@@ -147,6 +151,9 @@ def local_model(
         information_weight=information_weight,
         dropped=dropped,
         structure=apart,
+        senses=tuple(_sights(table, within, Preferences())[0] for table in others),
+        looks="open" in map_.sensors and len(within) <= FEW,
+        costs=costs,
         frontier=frontier,
         kept=cut.kept,
         untried=cut.untried,
@@ -198,13 +205,13 @@ def _likeliest_starts(places: Ints, belief: Floats, most: int) -> tuple[Ints, Fl
     return places[kept], belief[kept] / mass, max(float(belief.sum()) - mass, 0.0)
 
 
-def _sights(map_: MapView, places: Ints, preferences: Preferences) -> tuple[Floats, Floats, Floats]:
-    """A over the outcomes that places of the model (or preferences) tell apart, and one row for all the rest."""
-    keys, p, other = map_.A_o.mean(places)
-    preferred, log_preferred, log_other = preferences.log_C(map_.A_o.outcomes)
+def _sights(table: SparseDirichlet, places: Ints, preferences: Preferences) -> tuple[Floats, Floats, Floats]:
+    """A of a sensor over the outcomes that places (or preferences) tell apart, and one row for all the rest."""
+    keys, p, other = table.mean(places)
+    preferred, log_preferred, log_other = preferences.log_C(table.outcomes)
     row, slot = np.nonzero(keys >= 0)
     outcomes, index = distinct(np.concatenate([keys[row, slot], preferred]))
-    apart, total = len(outcomes), map_.A_o.outcomes
+    apart, total = len(outcomes), table.outcomes
     rest = total - apart
     A = np.full((apart + 1, len(places) + 1), 1.0 / total)
     A[:, :-1] = other

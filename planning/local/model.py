@@ -50,6 +50,9 @@ class LocalModel:
         information_weight: weight of every information gain beside utility and costs, 0 or more.
         dropped: belief in places that were left out, before `belief` was made to sum to one again.
         structure: hypotheses about the map, side by side; None where there is but one.
+        senses: of each further sensor that sees labels, `[O', R]` as `A`.
+        looks: whether the ways of a place are sensed in it, and places are few enough to compare the ways of all.
+        costs: `[K]` what each action is expected to cost, in units of its own; None where that was never said.
         frontier: the options of an agent that explores by them; None for others.
         untried: `[R, K]` nats that the first step along each way teaches, where no visit has told whether it is open;
             None where that is nothing.
@@ -75,6 +78,9 @@ class LocalModel:
     information_weight: float = 1.0
     dropped: float = 0.0
     structure: Structure | None = None
+    senses: tuple[Floats, ...] = ()
+    looks: bool = False
+    costs: Floats | None = None
     frontier: Frontier | None = None
     kept: Kept | None = field(default=None, repr=False, compare=False)
     untried: Floats | None = None
@@ -98,6 +104,7 @@ class LocalModel:
             kept=None,
             untried=None if self.untried is None else self.untried[places],
             A=self.A[:, places],
+            senses=tuple(A[:, places] for A in self.senses),
             B=self.B.within(places),
             successor=number[self.successor[places]],
             information={name: table[places] for name, table in self.information.items()},
@@ -108,7 +115,8 @@ class LocalModel:
         """Raise `CogmapError` naming the first table that is of the wrong shape or no probability."""
         self._check_shapes()
         B = self.B.probability.transpose(2, 0, 1)
-        for name, table in (("belief", self.belief), ("A", self.A), ("B", B)):
+        further = ((f"senses[{k}]", A) for k, A in enumerate(self.senses))
+        for name, table in (("belief", self.belief), ("A", self.A), ("B", B), *further):
             # a NaN fails every comparison, so these also refuse what is not finite
             _need(
                 table.min() >= 0.0 and abs(table.sum(0) - 1.0).max() <= 1e-6, f"{name} is no probability", "sums of one"
@@ -128,6 +136,11 @@ class LocalModel:
             ),
             (0.0 < self.discount <= 1.0, f"discount is {self.discount}", "a number above 0, at most 1"),
             (0.0 <= self.information_weight < np.inf, "information_weight is negative or not finite", "0 or more"),
+            (
+                self.costs is None or (np.isfinite(self.costs).all() and self.costs.min() >= 0.0),
+                "costs has a cost below 0, or none",
+                "finite numbers",
+            ),
             (0.0 <= self.dropped < 1.0, f"dropped is {self.dropped}", "a probability below 1"),
             (self.multiplicity.min() >= 1.0, "multiplicity is below one", "each row of A one sight or more"),
             (self.successor.min() >= -1 and self.successor.max() < R, "successor is no place", "-1, or places from 0"),
@@ -157,6 +170,10 @@ class LocalModel:
         for name, table in self.information.items():
             tables[f"information[{name!r}]"] = table[:, : N + 1]
             shapes[f"information[{name!r}]"] = (R, N + 1)
+        tables |= {f"senses[{k}]": A for k, A in enumerate(self.senses)}
+        shapes |= {f"senses[{k}]": (len(A), R) for k, A in enumerate(self.senses)}
+        if self.costs is not None:
+            tables["costs"], shapes["costs"] = self.costs, (K,)
         tables |= {"successors of B": self.B.successors, "probability of B": self.B.probability}
         shapes |= dict.fromkeys(("successors of B", "probability of B"), (R, K, slots))
         for name, shape in shapes.items():

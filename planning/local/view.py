@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import Motions, Pose, Sight, SparseDirichlet, Transition
+from ...model import Motions, Pose, Sensor, Sight, SparseDirichlet, Transition
 
 Ints = NDArray[np.int64]
 
@@ -35,6 +35,11 @@ class MapView(Protocol):
     transitions: Transition
     pose: Pose
     visits: Any
+
+    @property
+    def sensors(self) -> Mapping[str, Sensor]:
+        """All sensors, by name."""
+        ...
 
     @property
     def places(self) -> range:

@@ -2,6 +2,7 @@
 
 from .base import KINDS, Term
 from .collision import Collision
+from .cost import Cost
 from .learned import Learned
 from .plain import Step
 from .position_information import PositionInformation
@@ -29,6 +30,7 @@ __all__ = [
     "KINDS",
     "TERMS",
     "Collision",
+    "Cost",
     "Learned",
     "PositionInformation",
     "Rollout",

@@ -1,0 +1,104 @@
+"""Any environment of MiniGrid with a body in it, as a world for the level above."""
+
+from __future__ import annotations
+
+from contextlib import redirect_stdout
+from io import StringIO
+from typing import Any, ClassVar
+
+import gymnasium as gym
+import numpy as np
+from gymnasium import spaces
+from minigrid.minigrid_env import MiniGridEnv
+
+from ..model import UNSEEN
+from ..worlds import GRID, Motions, Observation, WorldError
+from ..worlds import minigrid as mg
+from .errand import errand_of
+from .minigrid import MiniGridBody
+
+_WAYS = ("right", "down", "left", "up")
+VIEWS = ("symbolic", "rgb")
+
+
+class PixelView(gym.ObservationWrapper[Any, Any, Any]):
+    """The view of an environment of MiniGrid in pixels, as MiniGrid's own wrapper shows it."""
+
+    def __init__(self, env: gym.Env[Any, Any]) -> None:
+        super().__init__(env)
+        told: Any = env.observation_space
+        side = mg.TILE * told["image"].shape[0]
+        image = spaces.Box(0, 255, (side, side, 3), np.uint8)
+        self.observation_space = spaces.Dict({**told.spaces, "image": image})
+
+    def observation(self, observation: Any) -> Any:
+        """The same in pixels."""
+        return {**observation, "image": mg.paint(observation["image"])}
+
+
+class RegisteredWorld(gym.Env[Observation, Any]):
+    """An environment of MiniGrid by its id. Rooms are chunks of space bounded by doors and gaps; their ways are four.
+
+    Nothing is known of how its rooms lie to each other: actions have no displacements. The sight is what can be told of
+    the room: size, floor, things. `info` has `low_level_steps` and `reached`, whether the environment gave a reward.
+
+    Args:
+        name: of the environment.
+        view: what the body sees, `"symbolic"` or `"rgb"`.
+        errand: whether it is to do what the mission asks for.
+
+    Raises:
+        WorldError: no such id, no environment of MiniGrid, no such view, or a mission that is not understood.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # pyright: ignore[reportIncompatibleVariableOverride]
+    motions = Motions(GRID.names, (), GRID.reverse)
+
+    def __init__(self, name: str, *, view: str | None = None, errand: bool = False) -> None:
+        view = view or "symbolic"
+        if view not in VIEWS:
+            raise WorldError(f"view is {view!r}; use {' or '.join(VIEWS)}")
+        mg.need_minigrid()
+        if name not in gym.registry:
+            raise WorldError(f"no environment {name!r} is registered; MiniGrid's begin with MiniGrid- or BabyAI-")
+        env: Any = gym.make(name, disable_env_checker=True)
+        if not isinstance(env.unwrapped, MiniGridEnv):
+            raise WorldError(f"{name!r} is no world of MiniGrid; a body of this library lives in no other")
+        self.name, self.env = name, PixelView(env) if view == "rgb" else env
+        self.body, self._errand = MiniGridBody(self.env, survey=True), errand
+        self.action_space = spaces.Discrete(len(GRID.names))
+        text = spaces.Text(200)
+        self.observation_space = spaces.Dict({"sight": text, "open": spaces.MultiBinary(len(GRID.names))})
+        self.rooms_seen = 0
+
+    @property
+    def low_level_steps(self) -> int:
+        """Low-level steps since the last reset."""
+        return self.body.steps
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Wake up where the environment puts it."""
+        super().reset(seed=seed)
+        with redirect_stdout(StringIO()):  # BabyAI tells of what it tried in vain
+            seen, _ = self.env.reset(seed=seed, options=options)
+        wanted = errand_of(seen["mission"]) if self._errand else None
+        if self._errand and wanted is None:
+            raise WorldError(f"{self.name}: the mission {seen['mission']!r} is none that a body understands yet")
+        self.body.begin(seen, errand=wanted)
+        self._percept = self.body.wake()
+        return self._observation(), self._info()
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Go through a way."""
+        before, name = self.body.reward, GRID.names[int(action)]
+        if not self.body.ended:
+            self._percept = self.body.wake() if name == "stay" else self.body.perform(_WAYS.index(name))
+        return self._observation(), self.body.reward - before, self.body.ended, False, self._info()
+
+    def _observation(self) -> Observation:
+        ways = {_WAYS[way]: is_open for way, is_open in self._percept.ways.items()}
+        seen: Observation = {"sight": self.body.room or UNSEEN, "open": [ways.get(n, True) for n in GRID.names]}
+        return seen if self._percept.outcome is None else {**seen, "outcome": self._percept.outcome}
+
+    def _info(self) -> dict[str, Any]:
+        return {"low_level_steps": self.body.steps, "reached": self.body.reward > 0.0}

@@ -1,0 +1,100 @@
+"""Environments of MiniGrid by their ids: rooms to explore, and missions to fulfil."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import gymnasium as gym
+import numpy as np
+import pytest
+from cogmap.body import PixelView, RegisteredWorld, errand_of
+from cogmap.experiments import ids_result, is_registered, run_id, run_ids
+from cogmap.model import CogmapError
+from cogmap.worlds import WorldError
+from command_line import cogmap
+
+
+def test_rooms_behind_doors_are_explored_and_the_goal_is_reached() -> None:
+    explored = run_id("MiniGrid-MultiRoom-N4-S5-v1", 1, errand=False)
+    assert (explored.rooms, explored.explored, explored.reached) == (4, True, False)
+    reached = run_id("MiniGrid-MultiRoom-N4-S5-v1", 1, errand=True)
+    assert reached.reached
+    assert reached.low_level_steps <= 60
+
+
+@pytest.mark.parametrize("name", ["MiniGrid-FourRooms-v0", "BabyAI-GoToObjMazeS4-v0", "BabyAI-PickupLoc-v0"])
+def test_pixels_and_symbols_lead_to_the_same_steps(name: str) -> None:
+    runs = [run_id(name, 2, errand=True, view=view) for view in ("symbolic", "rgb")]
+    assert runs[0] == runs[1]
+    assert runs[0].reached
+
+
+def test_missions_are_read() -> None:
+    assert errand_of("traverse the rooms to get to the goal") is not None
+    found = errand_of("go to a red ball")
+    assert found is not None
+    assert (int(found.wanted.sum()), found.upon, found.action) == (1, False, None)
+    box = errand_of("pick up the box")
+    assert box is not None
+    assert (int(box.wanted.sum()), box.action) == (6, "pickup")
+    for mission in (
+        "put the red ball next to the box",
+        "go to the red ball then open the door",
+        "dance",
+        "avoid the goal",
+    ):
+        assert errand_of(mission) is None
+
+
+def test_the_view_in_pixels_is_minigrids_own() -> None:
+    from minigrid.wrappers import RGBImgPartialObsWrapper
+
+    ours = PixelView(gym.make("BabyAI-GoToObjMazeS4-v0"))
+    theirs = RGBImgPartialObsWrapper(gym.make("BabyAI-GoToObjMazeS4-v0"))
+    seen = [env.reset(seed=3)[0]["image"] for env in (ours, theirs)]
+    for action in (0, 2, 2, 1, 2, 5, 3):
+        assert np.array_equal(*seen)
+        assert seen[0] in ours.observation_space["image"]
+        seen = [env.step(action)[0]["image"] for env in (ours, theirs)]
+
+
+def test_sweeps_and_the_command(tmp_path: Path) -> None:
+    runs = run_ids("MiniGrid-MultiRoom-N2-S4-v0", runs=2, errand=True)
+    summary = ids_result("x", runs, errand=True)["summary"]
+    assert summary["reached"] == 2
+    assert summary["mean_low_level_steps"] == np.mean([run.low_level_steps for run in runs])
+    file = tmp_path / "runs.json"
+    name = "MiniGrid-MultiRoom-N2-S4-v0"
+    assert cogmap("navigate", name, "--unexplored", "--runs", 2, "--json", file).exit_code == 0
+    assert json.loads(file.read_text())["runs"] == [run.to_dict() for run in runs]
+    assert "rooms visited" in cogmap("explore", name, "--view", "rgb").stdout
+    assert is_registered(name)
+    assert not is_registered("4x4_alias")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["explore", "MiniGrid-Nowhere-v0"], "is registered"),
+        (["explore", "CartPole-v1"], "is no world of MiniGrid"),
+        (["explore", "MiniGrid-FourRooms-v0", "--view", "lidar"], "symbolic or rgb"),
+        (["explore", "MiniGrid-FourRooms-v0", "--noise", "sight=0.1"], "--noise is for worlds whose truth is known"),
+        (["navigate", "MiniGrid-FourRooms-v0"], "without --unexplored"),
+        (["navigate", "MiniGrid-FourRooms-v0", "--unexplored", "--goal", "3"], "--goal is for"),
+        (["navigate", "BabyAI-PutNextLocal-v0", "--unexplored"], "none that a body understands"),
+        (["navigate", "3x3"], "give --goal"),
+    ],
+)
+def test_bad_input(arguments: list[str], said: str) -> None:
+    result = cogmap(*arguments)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+def test_bad_input_of_functions() -> None:
+    with pytest.raises(CogmapError, match="seed is -1"):
+        run_id("MiniGrid-FourRooms-v0", -1, errand=True)
+    with pytest.raises(WorldError, match="is registered"):
+        RegisteredWorld("NoSuch-v3")
