@@ -33,8 +33,8 @@ FAR = 2.0
 LONG = 2.5
 """Standard deviations of the logarithm of lengths above the mean up to which a way that was not walked may be long."""
 
-LEAST_SPREAD = 0.2
-"""Standard deviation of the logarithm of lengths, at least."""
+SPREAD, FEW = 0.5, 4
+"""Standard deviation of the logarithm of lengths before any was measured, and how many measurements it counts for."""
 
 ENOUGH = 12
 """Places that are to have been entered before bearings are thought to tell them apart."""
@@ -198,7 +198,7 @@ class Plane(NoPose):
         """How long that is: standard deviations of the logarithm of lengths above their mean."""
         many, logs, squares, _, _ = self.lengths.values.tolist()
         mean = logs / max(many, 1.0)
-        spread = max(np.sqrt(max(squares / max(many, 1.0) - mean * mean, 0.0)), LEAST_SPREAD)
+        spread = np.sqrt((max(squares - many * mean * mean, 0.0) + FEW * SPREAD**2) / (many + FEW))
         return float((np.log(max(length, 1e-9)) - mean) / spread)
 
     # -- ways between places -------------------------------------------------------------------------------
