@@ -16,6 +16,7 @@ from .map_plot import plot_map
 from .policy_plot import plot_policies, policy_paths
 from .recording import Recorder, Recording
 from .replay import replay_html
+from .scene_plot import Scene, plot_scene
 from .showing import Shown, show
 from .terms_plot import plot_terms
 from .theme import (
@@ -49,6 +50,7 @@ __all__ = [
     "MapPicture",
     "Recorder",
     "Recording",
+    "Scene",
     "Shown",
     "Theme",
     "contrast",
@@ -65,6 +67,7 @@ __all__ = [
     "plot_free_energy",
     "plot_map",
     "plot_policies",
+    "plot_scene",
     "plot_surprise",
     "plot_terms",
     "plot_world",
