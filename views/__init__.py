@@ -8,7 +8,7 @@ place of the chart, or row and column, that the agent takes as its origin.
 from .belief_plot import plot_belief, plot_belief_bars, plot_belief_map
 from .explain import explain
 from .explanation import Explanation
-from .figures import explore_figure
+from .figures import explore_figure, world_figure
 from .graph_plot import plot_factor_graph
 from .growth_frames import GrowthFrames
 from .map_picture import MapPicture
@@ -76,4 +76,5 @@ __all__ = [
     "show",
     "sight_colour",
     "theme_of",
+    "world_figure",
 ]

@@ -18,6 +18,17 @@ if TYPE_CHECKING:
 WIDTH = 5.5  # of a plot, inches
 
 
+def world_figure(chart: Chart, *, title: str | None = None) -> Figure:
+    """A world, large enough to read."""
+    from matplotlib.figure import Figure
+
+    cells = world_picture(chart).cells.values()
+    rows, columns = (max(part) - min(part) + 1 for part in zip(*cells, strict=True))
+    figure = Figure(figsize=(1.6 * WIDTH, min(max(1.6 * WIDTH * rows / columns, 2.0), 12.0)), layout="constrained")
+    plot_world(chart, title=chart.name if title is None else title, ax=figure.add_subplot())
+    return figure
+
+
 def explore_figure(
     chart: Chart,
     path: Sequence[Any],

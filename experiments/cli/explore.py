@@ -51,6 +51,7 @@ def explore_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    told: opt.Told = None,
     view: opt.View = None,
     tiles: opt.Tiles = None,
     policies: opt.Policies = None,
@@ -83,7 +84,7 @@ def explore_command(
         run_registered(world, errand=False, **how, jobs=jobs, json=json, refused=refused)
         return
     lower: Any = {"view": view, "tiles": tiles}
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
     options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine, "pose": pose}
     every = [lab.Parts.named(agent, preset=preset, growth=name, **options) for name in names]
