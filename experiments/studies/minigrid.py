@@ -7,9 +7,12 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from ...agent import Settings
-from ...body import load_embodied
+from ...body import COLOURS, embodied, load_embodied
 from ...views import BLUE, GREY
+from ...worlds import Maze, hall
 from .. import Record, explore, kidnap, mean, navigate
 from .figures import Figure, panels, plot_bars
 from .intervals import wilson
@@ -73,8 +76,8 @@ class Bodies(Study[Task, BodyRun]):
             moved = kidnap(load_embodied("3x4", view="rgb", seed=seed, turned=True), seed, settings=settings)
             return BodyRun(case, seed, moved.recovered and moved.map_intact is True)
         size, noisy = case if case in SIZES else "3x3", case == "noise"
-        tiles = "4-12" if case == CASES[-1] else None
-        world = load_embodied(size, view="rgb", tiles=tiles, noise=NOISE if noisy else None, seed=seed)
+        most = 12 if case == CASES[-1] else 4
+        world = embodied(_hall(size, seed), view="rgb", most=most, noise=NOISE if noisy else None)
         seen = explore(world, seed, settings=settings)
         complete, share = seen.steps_to_complete is not None, seen.tiles_seen or 0.0
         there = share >= SEEN if case in SIZES else complete
@@ -89,6 +92,12 @@ class Bodies(Study[Task, BodyRun]):
         tables = [Table.of("minigrid_cases", table, caption)]
         json = {"runs": rows, "summary": table}
         return Findings(json, lines, {"minigrid_shares": partial(_shares, rows)}, tables, failed)
+
+
+def _hall(size: str, seed: int) -> Maze:
+    rows, columns = map(int, size.split("x"))
+    made = hall(rows, columns, sights=COLOURS, rng=np.random.default_rng(seed))
+    return Maze(size, dict(made.sights), made.walls)
 
 
 def _row(case: str, runs: Sequence[BodyRun]) -> dict[str, Value]:
