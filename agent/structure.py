@@ -14,16 +14,23 @@ LEAST = 1e-5
 class OpenQuestion:
     """The hypotheses that are worth telling apart; places go by the numbers of each.
 
+    Of those whose maps look the same (they differ in poses, if in anything) the most probable stands for all.
+
     Attributes:
         weights: their probabilities.
         here: where the agent is in each.
     """
 
     def __init__(self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int]) -> None:
-        self._kept = [h for h in hypotheses if exp(h.weight) >= LEAST]
+        self._kept, alike = list[Hypothesis](), dict[tuple[int, int], float]()
+        for h in hypotheses:
+            key, p = (h.digest, h.here), exp(h.weight)
+            if p >= LEAST and key not in alike:
+                self._kept.append(h)
+            alike[key] = alike.get(key, 0.0) + p
         self._ways = ways
         self._ahead, self._expected = dict[tuple[int, int, int], int | None](), dict[tuple[int, int], Hashable]()
-        self.weights: Sequence[float] = [exp(h.weight) for h in self._kept]
+        self.weights: Sequence[float] = [alike[h.digest, h.here] for h in self._kept]
         self.here: Sequence[Hashable] = [h.here for h in self._kept]
 
     def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
