@@ -10,6 +10,7 @@ from .state import GivenPreferences
 from .storage import read_header
 from .trace import StepRecord
 from .trace_table import trace_table
+from .turning import TurningAgent
 
 __all__ = [
     "Agent",
@@ -18,6 +19,7 @@ __all__ = [
     "Pomdp",
     "Settings",
     "StepRecord",
+    "TurningAgent",
     "follow",
     "read_header",
     "trace_table",

@@ -31,10 +31,12 @@ from ..model import (
     restore_map,
     safe,
     take_slice,
+    updates,
     window_graph,
 )
 from ..planning import LocalCache, Plan, Planner
 from . import storage
+from .expecting import expected_at
 from .following import Followed, follow
 from .hypotheses import MapHypothesis
 from .known_map import KnownMap
@@ -238,6 +240,19 @@ class Agent:
         return tuple(self._state.window)
 
     @property
+    def expected(self) -> Mapping[str, Hashable]:
+        """What each sensor was expected to show where the agent believes to be, before the last observation.
+
+        Of ways, for each action whether it was; None where nothing was known. Where the map was written anew it is what
+        is known now.
+        """
+        state = self._state
+        if state.expected is None:
+            learned = () if state.revised else updates(self.map.changes.since(state.begun)[0] or ())
+            state.expected = expected_at(self.map, self.belief.place, learned)
+        return state.expected
+
+    @property
     def graph(self) -> FactorGraph:
         """The factor graph of the current window; while it is open which map is right, with that as a variable."""
         graph = window_graph(self.map, self.window)
@@ -317,6 +332,7 @@ class Agent:
             self._recognition.take_in(percept)
         self._infer(percept)
         self._teach(percept)
+        state.expected = None
         state.spend(percept)
         state.percept, state.acted, state.choice, self._plan = percept, False, None, None
         state.open = self._recognition.open(percept)
@@ -465,6 +481,7 @@ class Agent:
             CogmapError: the agent is torn, or a label cannot be written.
         """
         self._check_whole()
+        _ = self.steps and self.expected  # the log of changes, which tells it, is not saved
         map_, arrays = map_state(self.map)
         header = {
             "motions": _told(self.map.motions),

@@ -153,11 +153,17 @@ class Recognition:
 
     @property
     def question(self) -> OpenQuestion | None:
-        """What is worth telling apart; None where nothing is, or new places are within reach, which tell as well."""
-        hypotheses = self.tracker.hypotheses
-        if len(hypotheses) < 2 or not (self._map.visited.all() or _enclosed(self._now)):
+        """What is worth telling apart; None where nothing is, or new places are within reach, which tell as well.
+
+        Those are the hypotheses, and, where ways are misread now and then, whether the doors were read right.
+        """
+        hypotheses, now = self.tracker.hypotheses, self.followed
+        if now is None or not (self._map.visited.all() or _enclosed(now)):
             return None
-        return OpenQuestion(hypotheses, self.sensing.ways)
+        misread = ways_misread(now) > HARDLY
+        if len(hypotheses) < 2 and not misread:
+            return None
+        return OpenQuestion(hypotheses, self.sensing.ways, doors_of=now if misread else None)
 
     def asked(self, graph: FactorGraph, *, step: int) -> FactorGraph:
         """The graph of the window with the question which hypothesis is right, if that is open."""

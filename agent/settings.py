@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, fields
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 import numpy as np
 
@@ -49,7 +49,7 @@ class Settings:
     forgetting: float = 0.0
     certainty: float = 0.7
     window: int = 10
-    engine: str = "numpy"
+    engine: Literal["numpy", "gtsam"] = "numpy"
     filter: FilterOptions = field(default_factory=FilterOptions)
     hypotheses: TrackerOptions | None = field(default_factory=TrackerOptions)
     priors: Priors = field(default_factory=Priors)

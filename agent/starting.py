@@ -6,7 +6,7 @@ from collections import Counter, deque
 from collections.abc import Hashable, Mapping
 from typing import Any, cast
 
-from ..inference import Place, Share, Way
+from ..inference import Place, Share, Way, readings_of
 from ..model import CogmapError, GenerativeModel, Position
 from .known_map import GivenWay, KnownMap
 from .sensing import Sensing
@@ -30,9 +30,14 @@ def records_of_graph(known: KnownMap, model: GenerativeModel, sensing: Sensing) 
         for way, action in enumerate(sensing.actions):
             if action in ahead:
                 into[ahead[action]].add((number, way))
+    shown = {node: [_sights(known, node, model, k) for k in range(sensing.scheme.sensors)] for node in numbers}
+    labels = sensing.labels()
     return {
         number: Place(
-            tuple(_sights(known, node, model, sensor) for sensor in range(sensing.scheme.sensors)),
+            tuple(
+                readings_of(shares, many + 1, sure=SURE) if shares else {}
+                for shares, many in zip(shown[node], labels, strict=True)
+            ),
             tuple(_way(leads[number].get(action)) for action in sensing.actions) or (Way(),),
             0,
             positions[number],
@@ -112,7 +117,7 @@ def _whole(known: KnownMap, position: Any, size: int) -> Position:
 
 
 def _sights(known: KnownMap, node: Hashable, model: GenerativeModel, sensor: int) -> dict[int, float]:
-    """Readings of each label of a sensor that a node is worth."""
+    """Shares of the labels of a sensor that a node shows, or may show; none where it says nothing."""
     if not model.sights_sensed:
         return {}
     sight, facts = model.sights_sensed[sensor], known.nodes[node]
@@ -124,8 +129,7 @@ def _sights(known: KnownMap, node: Hashable, model: GenerativeModel, sensor: int
         reading: Any = sight.read(sight.check(told), step=0)
     except CogmapError as error:
         raise CogmapError(f"{known.where}: node {node!r}: {error}") from error
-    shares: Mapping[int, float] = reading if isinstance(reading, Mapping) else {reading: 1.0}
-    return {label: SURE * share / sum(shares.values()) for label, share in shares.items()}
+    return reading if isinstance(reading, Mapping) else {reading: 1.0}
 
 
 def _shown(value: Any) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,6 +75,7 @@ class State:
         begun: where the log of changes was when the present step began.
         revised: whether it changed its mind at the present step: the map, or where it is in it.
         told: it was told that it was moved, since the last step.
+        expected: by sensor, what was expected of it at the last step; None where nobody has asked yet.
         costs: by action, how often a move cost something, and how much in all.
     """
 
@@ -89,6 +91,7 @@ class State:
     begun: int = 0
     revised: bool = False
     told: bool = False
+    expected: Mapping[str, Any] | None = None
     costs: Mapping[int, tuple[int, float]] = field(default_factory=dict[int, tuple[int, float]])
 
     def spend(self, percept: Percept) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from heapq import nlargest
 from math import exp
 
 from ..inference import NOWHERE, Hypothesis, open_probability
@@ -10,28 +11,45 @@ from ..inference import NOWHERE, Hypothesis, open_probability
 LEAST = 1e-5
 """Hypotheses less probable than this are not worth a way; they are asked where nothing else is to be done."""
 
+MISREAD = 1e-3
+"""Probability that a door is not as it was read from which on it is worth another look."""
+
+DOORS = 7
+"""Doors that are asked for at a time, at most."""
+
+NEAREST = 200
+"""Places around the agent whose doors are asked for, at most."""
+
+Door = frozenset[tuple[int, int]]
+"""A door by the (place, way) of its sides."""
+
 
 class OpenQuestion:
     """The hypotheses that are worth telling apart; places go by the numbers of each.
 
     Of those whose maps look the same (they differ in poses, if in anything) the most probable stands for all.
 
+    Args:
+        hypotheses: all of them.
+        ways: of actions, as hypotheses number them.
+        doors_of: one of them of which it is asked besides, door by door, whether it was read right.
+
     Attributes:
         weights: their probabilities.
         here: where the agent is in each.
     """
 
-    def __init__(self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int]) -> None:
-        self._kept, alike = list[Hypothesis](), dict[tuple[int, int], float]()
-        for h in hypotheses:
-            key, p = (h.digest, h.here), exp(h.weight)
-            if p >= LEAST and key not in alike:
-                self._kept.append(h)
-            alike[key] = alike.get(key, 0.0) + p
-        self._ways = ways
+    def __init__(
+        self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int], *, doors_of: Hypothesis | None = None
+    ) -> None:
+        kept = [(weight, h, Door()) for weight, h in _apart(hypotheses)]
+        if doors_of is not None:
+            doubtful, weight = nlargest(DOORS, _doubtful(doors_of), key=lambda found: found[0]), exp(doors_of.weight)
+            kept += [(weight * p / (1.0 - p), doors_of, door) for p, door in doubtful]
+        self._kept, self._ways = [(h, misread) for _, h, misread in kept], ways
         self._ahead, self._expected = dict[tuple[int, int, int], int | None](), dict[tuple[int, int], Hashable]()
-        self.weights: Sequence[float] = [alike[h.digest, h.here] for h in self._kept]
-        self.here: Sequence[Hashable] = [h.here for h in self._kept]
+        self.weights: Sequence[float] = [weight for weight, _, _ in kept]
+        self.here: Sequence[Hashable] = [h.here for _, h, _ in kept]
 
     def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
         """The place that an action leads to; the same where its way is believed shut, None for one never seen."""
@@ -41,11 +59,15 @@ class OpenQuestion:
         return self._ahead[key]
 
     def _leads(self, h: int, number: int, action: int) -> int | None:
-        found, way = self._kept[h], self._ways.get(action)
-        if way is None or open_probability(found, number, way) < 0.5:
+        (found, _), way = self._kept[h], self._ways.get(action)
+        if way is None or not self._open(h, number, way):
             return number
         to = found.neighbour(found.places[number], way)
         return None if to == NOWHERE else to
+
+    def _open(self, h: int, number: int, way: int) -> bool:
+        found, misread = self._kept[h]
+        return (open_probability(found, number, way) > 0.5) != ((number, way) in misread)
 
     def expected(self, h: int, place: Hashable, /) -> Hashable:
         """Its sights, and its ways as far as they were looked at."""
@@ -55,15 +77,58 @@ class OpenQuestion:
         return self._expected[key]
 
     def _shows(self, h: int, number: int) -> Hashable:
-        found = self._kept[h]
+        found, _ = self._kept[h]
         record = found.places[number]
         looked = [
-            None if not (way.open or way.blocked) else open_probability(found, number, k) > 0.5
-            for k, way in enumerate(record.ways)
+            None if not (way.open or way.blocked) else self._open(h, number, k) for k, way in enumerate(record.ways)
         ]
         return tuple(record.label(sensor) for sensor in range(found.scheme.sensors)), tuple(looked)
+
+
+def _doubtful(h: Hypothesis) -> Iterator[tuple[float, Door]]:
+    """(P(it is not as it was read), the door), of each door that was looked at."""
+    asked = set[tuple[int, int]]()
+    for number in _around(h):
+        record = h.places[number]
+        for way, known in enumerate(record.ways):
+            if (number, way) in asked or not (known.open or known.blocked):
+                continue
+            door = _sides(h, number, way)
+            asked |= door
+            p = open_probability(h, number, way)
+            if min(p, 1.0 - p) >= MISREAD:
+                yield min(p, 1.0 - p), door
+
+
+def _around(h: Hypothesis) -> Sequence[int]:
+    """The places nearest to the agent's, itself included."""
+    found = [h.here]
+    for number in found:
+        record = h.places[number]
+        beyond = (h.neighbour(record, way) for way in range(h.scheme.count))
+        found += dict.fromkeys(to for to in beyond if to != NOWHERE and to not in found)
+        if len(found) >= NEAREST:
+            break
+    return found[:NEAREST]
+
+
+def _sides(h: Hypothesis, number: int, way: int) -> Door:
+    other = h.neighbour(h.places[number], way)
+    if other == NOWHERE or h.scheme.inverse is None:
+        return Door({(number, way)})
+    return Door({(number, way), (other, h.scheme.inverse[way])})
 
 
 def _number(place: Hashable) -> int:
     assert isinstance(place, int)
     return place
+
+
+def _apart(hypotheses: Sequence[Hypothesis]) -> list[tuple[float, Hypothesis]]:
+    """Those worth a way whose maps look different, the most probable of each kind with the probability of its kind."""
+    kinds: dict[tuple[int, int], tuple[float, Hypothesis]] = {}
+    for h in hypotheses:
+        if (p := exp(h.weight)) >= LEAST:
+            before, first = kinds.get((h.digest, h.here), (0.0, h))
+            kinds[h.digest, h.here] = before + p, first
+    return list(kinds.values())

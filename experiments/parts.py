@@ -8,7 +8,7 @@ from typing import Any, Protocol, Self
 
 import numpy as np
 
-from ..agent import Agent, Settings
+from ..agent import Agent, Settings, TurningAgent
 from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
 from ..model import GROWTHS, POSES, Bearings, CogmapError, Pose, Sensor, Sight, StaticGrowth, Ways
 from ..planning import CHOICES, POLICIES, LShaped, MapGuided, Planner, Sampled
@@ -120,7 +120,8 @@ class Parts:
                 "growth": growth,
                 "planner": planner,
             }
-            return Agent(motions, **own, settings=self.settings, seed=number)
+            kind = TurningAgent if getattr(world.unwrapped, "turned", False) else Agent
+            return kind(motions, **own, settings=self.settings, seed=number)
         if self.agent in CSCG:
             positions, how = CSCG[self.agent]
             seen = len(chart.places if positions else set(chart.sights.values()))

@@ -12,7 +12,7 @@ from cogmap.experiments import Trail, Verdict
 from cogmap.experiments.running import Moment
 from cogmap.inference import TrackerOptions, infer
 from cogmap.model import CogmapError, NoPose, Sight
-from cogmap.worlds import NoisyWorld, UnseenWays, load_world, place_of, ring, torus
+from cogmap.worlds import MazeEnv, NoisyWorld, UnseenWays, comb, load_world, place_of, ring, torus
 
 
 def walked(world: Any, agent: Agent, steps: int, *, seed: int = 0, moves: dict[int, Any] | None = None) -> Trail:
@@ -62,6 +62,14 @@ def test_a_map_comes_right_after_a_move_into_a_room_never_seen(
     world = load_world(name)
     agent = Agent(world.motions, seed=seed)
     exact(agent, walked(world, agent, steps, seed=seed, moves={at: room}), world)
+
+
+def test_doors_are_looked_at_again_where_they_are_misread() -> None:
+    """Or else rooms behind a door that was read as a wall once would never be entered."""
+    maze = comb(4, 3, sights=4, rng=np.random.default_rng(300))
+    world = NoisyWorld(MazeEnv(maze), door=0.05)
+    agent = Agent(world.unwrapped.motions, seed=0)  # type: ignore[attr-defined]
+    exact(agent, walked(world, agent, 240), world)
 
 
 def test_an_agent_that_is_moved_before_each_step_learns_that_it_is() -> None:

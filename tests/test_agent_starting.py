@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import networkx as nx
+import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError, NoPose, Sight, Ways
@@ -98,6 +99,22 @@ def test_what_one_agent_mapped_another_can_begin_with(tmp_path: Path) -> None:
             seen, *_ = world.step(other.step(seen))
         assert other.certain
         assert len(other.map.places) == 9
+
+
+def test_a_map_may_say_how_probably_a_place_shows_what(tmp_path: Path) -> None:
+    row: Any = nx.Graph()
+    for number, sight in enumerate([{"a": 0.7, "b": 0.3}, "c", {"a": 0.1, "b": 0.9}]):
+        row.add_node(number, sight=sight, position=(0, number))
+    nx.add_path(row, range(3))
+    agent = Agent(GRID, map=row, seed=0)
+    np.testing.assert_allclose(agent.map.A_o.dense(3)[:3], [[0.7, 0, 0.1], [0.3, 0, 0.9], [0, 1, 0]], atol=1e-3)
+    (tmp_path / "map.json").write_text(agent.map.to_json())
+    again = Agent(GRID, map=tmp_path / "map.json", seed=0)
+    np.testing.assert_allclose(again.map.A_o.dense(3), agent.map.A_o.dense(3), atol=1e-3)
+    agent.perceive({"sight": "b", "open": [False, False, False, True, True]})  # the ways say which
+    assert agent.belief.place == 0
+    again.perceive({"sight": "b", "open": [False, False, None, None, True]})
+    assert again.belief.places == pytest.approx({0: 0.25, 2: 0.75}, abs=0.05)
 
 
 def test_without_positions_places_may_hang_together_in_any_way() -> None:

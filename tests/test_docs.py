@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+import ast
+import importlib
 import importlib.util
 import re
 import shlex
@@ -89,6 +91,18 @@ def test_every_command_of_the_documents_exists() -> None:
         _, name, *rest = shlex.split(line)
         known = {option for parameter in commands[name].params for option in parameter.opts}
         assert {word for word in rest if word.startswith("--")} <= known, line
+
+
+def test_what_the_documents_import_is_public() -> None:
+    pages = [ROOT / "README.md", *PAGES]
+    blocks = [block for page in pages for block in re.findall(r"^```python\n(.*?)^```", page.read_text(), re.M | re.S)]
+    blocks += [path.read_text("utf-8") for path in sorted((ROOT / "examples").glob("*.py"))]
+    found = [node for block in blocks for node in ast.walk(ast.parse(block)) if isinstance(node, ast.ImportFrom)]
+    ours = [node for node in found if str(node.module).split(".")[0] == "cogmap"]
+    assert len(ours) > 50
+    for node in ours:
+        public = importlib.import_module(str(node.module)).__all__
+        assert {alias.name for alias in node.names} <= set(public), f"from {node.module} import …"
 
 
 def test_links_of_the_repository_become_links_of_the_site(repository: ModuleType) -> None:

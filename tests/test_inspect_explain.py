@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.model import CogmapError, Sight, Ways
+from cogmap.model import CogmapError, Features, Sight, Ways
 from cogmap.planning import POLICIES, TIE, Outward
 from cogmap.views import Explanation, explain
 from cogmap.worlds import load_world
@@ -187,3 +187,23 @@ def test_each_sensor_says_what_it_spoke_for_and_what_was_expected_of_it() -> Non
     assert against.sensed == (("room", 1.0), ("hall", pytest.approx(1 / 9)))
     assert against.nats < 0.0
     assert "against it" in str(against)
+
+
+def test_it_says_what_each_sensor_was_expected_to_show_before_it_was_taught() -> None:
+    rng = np.random.default_rng(0)
+    agent = Agent(GRID, sensors=[Sight(), Sight("smell"), Features("view", size=4), Ways()], seed=0)
+    view, there, back = rng.normal(size=4), [False, False, False, True, True], [False, False, True, False, True]
+    unknown = {"sight": None, "smell": None, "view": None, "open": None}
+    agent.step({"sight": "hall", "smell": {"tea": 0.8, "smoke": 0.2}, "view": view, "open": there})
+    assert agent.expected == unknown
+    assert [voice.seen for voice in explain(agent).spoken] == [True] * 4
+    agent.step({"sight": "room", "smell": "smoke", "view": UNSEEN, "open": back, "taken": "right"})
+    assert agent.expected == {**unknown, "open": (None, None, True, None, True)}  # the door that it came through
+    agent.step({"sight": UNSEEN, "smell": "smoke", "view": view, "open": there, "taken": "left"})
+    known = {"sight": "hall", "smell": "tea", "view": 0, "open": (False, False, False, True, True)}
+    assert agent.expected == known
+    voices = {voice.sensor: voice for voice in explain(agent).spoken}
+    assert {name: voice.expected for name, voice in voices.items()} == known
+    assert (voices["sight"].seen, str(voices["sight"])) == (False, "sight saw nothing")
+    assert voices["smell"].nats < 0.0 < voices["open"].nats
+    assert "smell smoke (expected tea) spoke against it by" in explain(agent).text

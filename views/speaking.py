@@ -8,7 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..agent import Agent
-from ..model import Sensor, Sight, shown
+from ..model import shown
+
+LEAST = 5e-4
+"""Nats and counts below which there are none to speak of."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,15 +21,15 @@ class Spoken:
     sensor: str
     seen: bool  # whether it saw anything
     sensed: Hashable  # what it sensed, as the graph shows it; None where it saw nothing
-    expected: Hashable  # what that place most probably shows, as is known now; None where nothing is known of it
+    expected: Hashable  # what was most probable there before; None where nothing was known of it
     nats: float  # log P(sensed | place) beyond that of a place of which nothing is known: what it spoke for the place
 
     def __str__(self) -> str:
         if not self.seen:
             return f"{self.sensor} saw nothing"
         known = "" if self.expected is None else f" (expected {shown(self.expected)})"
-        side = "for it" if self.nats >= 0.0 else "against it"
-        return f"{self.sensor} {shown(self.sensed)}{known} spoke {side} by {abs(self.nats):.3f} nats"
+        spoke = f"spoke {'for' if self.nats > 0.0 else 'against'} it by {abs(self.nats):.3f} nats"
+        return f"{self.sensor} {shown(self.sensed)}{known} {spoke if abs(self.nats) >= LEAST else 'told nothing of it'}"
 
 
 def spoken(agent: Agent) -> tuple[Spoken, ...]:
@@ -36,7 +39,7 @@ def spoken(agent: Agent) -> tuple[Spoken, ...]:
     tables = {table.name: table for table in last.tables}
     found: list[Spoken] = []
     for name, sensor in agent.map.sensors.items():
-        expected = _expected(agent, sensor)
+        expected = agent.expected[name]
         if name not in percept.readings:
             found.append(Spoken(name, False, None, expected, 0.0))
             continue
@@ -46,15 +49,3 @@ def spoken(agent: Agent) -> tuple[Spoken, ...]:
         nats = float(log - sensor.log_predictive(reading))
         found.append(Spoken(name, True, sensor.label(reading), expected, nats))
     return tuple(found)
-
-
-def _expected(agent: Agent, sensor: Sensor) -> Hashable:
-    """What the place that is believed in most probably shows."""
-    map_, here = agent.map, np.array([agent.belief.place])
-    if isinstance(sensor, Sight):
-        keys, p, _ = sensor.table.mean(here)
-        best = int(keys[0, p[0].argmax()])
-        return sensor.labels[best] if best >= 0 else None
-    if sensor.name == "open":
-        return tuple((map_.blocked(here)[0] < 0.5).tolist())
-    return None

@@ -4,7 +4,16 @@ from .branches import Lead
 from .hypothesis import Hypothesis
 from .knowing import tracker_knowing
 from .options import Change, Checkpoint, TrackerOptions
-from .reading import RateOf, label_probabilities, open_probability, rates_of, ways_misread, where_to, whereabouts
+from .reading import (
+    RateOf,
+    label_probabilities,
+    open_probability,
+    rates_of,
+    readings_of,
+    ways_misread,
+    where_to,
+    whereabouts,
+)
 from .records import NOWHERE, Place, Share, Way
 from .scheme import Sensed, WayScheme
 from .tracker import Tracker
@@ -26,6 +35,7 @@ __all__ = [
     "label_probabilities",
     "open_probability",
     "rates_of",
+    "readings_of",
     "tracker_knowing",
     "ways_misread",
     "where_to",

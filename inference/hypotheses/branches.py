@@ -24,6 +24,9 @@ MOST = 4096
 SQUARES = 0.1
 """Rate of squares that close below which none is thought of."""
 
+FEW = 512
+"""Places up to which all are looked at when the agent is told that it was moved."""
+
 FAINT = 18.0
 """Nats below which a place of a crowd is let go."""
 
@@ -225,6 +228,8 @@ def unseen(h: Hypothesis) -> float:
 
 def look_alikes(h: Hypothesis, sensed: Sensed) -> tuple[int, ...]:
     """Places that may look like what is sensed, to any sensor that is sure of it; those first seen last."""
+    if sensed.told and h.size <= FEW:  # any place may show it, however rarely
+        return tuple(h.places)
     sure = [(sensor, reading) for sensor, reading in enumerate(sensed.sights) if isinstance(reading, int)]
     if len(sure) == 1:
         return (h.shown.get(sure[0]) or ())[-MOST:]

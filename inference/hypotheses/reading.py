@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from math import exp
+from collections.abc import Mapping
+from math import exp, log
 from typing import NamedTuple
 
 from .branches import Lead, leads
+from .chances import Chances
 from .evidence import label_probability, probability, way_odds
 from .hypothesis import Hypothesis
-from .rates import RATE_PRIORS, WAY_MISREAD
+from .rates import RATE_PRIORS, WAY_MISREAD, RateCounts
+from .records import SightCounts
 
 
 class RateOf(NamedTuple):
@@ -62,3 +65,16 @@ def rates_of(h: Hypothesis) -> list[RateOf]:
         RateOf(prior.name, prior.meaning, counts.mean(k), max(counts.yes[k], 0.0), max(counts.no[k], 0.0))
         for k, prior in enumerate(RATE_PRIORS)
     ]
+
+
+def readings_of(shares: Mapping[int, float], labels: int, *, sure: float) -> SightCounts:
+    """Readings after which labels are as probable as these shares, the most probable one read `sure` times.
+
+    Args:
+        shares: by number of the label, above zero.
+        labels: number of labels of the sensor, one never met included.
+        sure: at no doubt.
+    """
+    unit, most = Chances(RateCounts(), [labels]).sight_unit[0], max(shares.values())
+    counts = {label: sure + log(share / most) / unit for label, share in shares.items()}
+    return {label: count for label, count in counts.items() if count > 0.0}

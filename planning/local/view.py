@@ -21,7 +21,6 @@ class MapView(Protocol):
         A_o: P(sight | place), a row a place.
         A_p: P(position | place), a row a place.
         B_s: P(next place | place, action), its rows named by `rows_of`; the outcome -1 is a place never imagined.
-        sensors: all sensors, by name.
         sights_sensed: the sensors that see labels, each with what visits teach of it.
         transitions: what looks at ways teach of B_s.
         pose: what visits teach of A_p.
@@ -32,11 +31,15 @@ class MapView(Protocol):
     A_o: SparseDirichlet
     A_p: SparseDirichlet
     B_s: SparseDirichlet
-    sensors: Mapping[str, Sensor]
     sights_sensed: tuple[Sight, ...]
     transitions: Transition
     pose: Pose
     visits: Any
+
+    @property
+    def sensors(self) -> Mapping[str, Sensor]:
+        """All sensors, by name."""
+        ...
 
     @property
     def places(self) -> range:

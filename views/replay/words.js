@@ -28,7 +28,8 @@ function spoke(frame) {
   const told = Object.entries(frame.spoke || {}).map(([sensor, [nats, expected]]) => {
     if (nats === null) return `${sensor} saw nothing`;
     const wanted = sensor === "open" || expected === null ? "" : ` (expected ${expected})`;
-    return `${sensor}${wanted} ${nats >= 0 ? "for" : "against"} it by ${number(Math.abs(nats))} nats`;
+    if (Math.abs(nats) < 5e-4) return `${sensor}${wanted} told nothing of it`;
+    return `${sensor}${wanted} ${nats > 0 ? "for" : "against"} it by ${number(Math.abs(nats))} nats`;
   });
   return told.length ? `Of that place spoke: ${told.join("; ")}.` : "";
 }
