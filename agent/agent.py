@@ -2,68 +2,32 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..inference import Belief, RateOf, advance, begin
-from ..model import (
-    STEPS,
-    CogmapError,
-    CognitiveMap,
-    FactorGraph,
-    Growth,
-    Motions,
-    MotionSpec,
-    Percept,
-    Pose,
-    PredictedGrowth,
-    Sensor,
-    Slice,
-    Whereabouts,
-    map_state,
-    release,
-    restore_map,
-    safe,
-    take_slice,
-    updates,
-    window_graph,
-)
-from ..planning import LocalCache, Plan, Planner
-from . import storage
-from .expecting import expected_at
+from ..inference import Belief, advance, begin
+from ..model import CogmapError, Growth, MotionSpec, Percept, Pose, Sensor, Whereabouts, take_slice
+from ..planning import Plan, Planner
+from .filing import KEEP, Filed
 from .following import Followed, follow
-from .hypotheses import MapHypothesis
 from .known_map import KnownMap
-from .mapper import Mapper
-from .packing import Arrays, pack, unpacked_state
-from .parts import made_of, parts_of
 from .perceiving import checked, percept_of, unseen_ways
 from .preferring import given_preferences, weighed
-from .recognition import Recognition
 from .settings import Settings
 from .starting import records_of_graph
-from .state import Choice, GivenPreferences, State
-from .trace import StepRecord, record_of
-from .wholeness import IN_STEP, Before, before_step, undo_step
+from .state import Choice, GivenPreferences
+from .trace import record_of
+from .wiring import Seed
 
 if TYPE_CHECKING:
     import networkx as nx
 
-T = TypeVar("T")
 
-Seed = int | np.random.SeedSequence | None
-
-KEEP = 10_000
-"""Steps of which the trace and the log of growth keep everything, unless told otherwise."""
-
-
-class Agent:
+class Agent(Filed):
     """An agent that builds its own map.
 
     It is given observations only, what each of its sensors senses by name (`{"sight": label, "open": truth values
@@ -122,142 +86,6 @@ class Agent:
         else:
             self._recognition.begin_with(records_of_graph(known, self.map, self._recognition.sensing))
 
-    def _assemble(
-        self,
-        motions: MotionSpec | Mapping[str, Sequence[int]],
-        sensors: Iterable[Sensor] | None,
-        pose: Pose | None,
-        growth: Growth | None,
-        planner: Planner | None,
-        settings: Settings,
-        seed: Seed,
-    ) -> None:
-        """Put the parts together; the map is empty yet."""
-        sensors = None if sensors is None else list(sensors)
-        given = [("a sensor", sensor, Sensor) for sensor in sensors or ()]
-        parts: list[tuple[str, object, type]] = [
-            *given,
-            ("pose", pose, Pose),
-            ("growth", growth, Growth),
-            ("planner", planner, Planner),
-            ("settings", settings, Settings),
-        ]
-        for name, part, kind in parts:
-            if part is not None and not isinstance(part, kind):
-                raise CogmapError(f"agent: {name} is {part!r}; give an object, such as growth=PredictedGrowth()")
-        self._settings = settings
-        self.growth = growth or PredictedGrowth()
-        self.planner = planner or Planner()
-        self.map = CognitiveMap(
-            Motions.of(motions),
-            sensors=sensors,
-            pose=pose,
-            priors=settings.priors,
-            rates=settings.rates,
-            displacement=settings.filter.displacement,
-            slip=settings.filter.slip,
-        )
-        self.rng = _generator(seed)
-        self.trace: list[StepRecord] = []
-        self._recognising = settings.hypotheses is not None and not self.map.pose.settles
-        self._recognition = Recognition(self.map, self.growth, settings.hypotheses)
-        self._mapper = Mapper(self.map, self.growth, self._recognition.mirror.ways, settings)
-        self._cache = LocalCache(self.map, settings.look_ahead)
-        self._plan: Plan | None = None
-        self._torn: str | None = None
-        self.planner.check(self.map.motions, settings.look_ahead)
-        self._state = State(deque[Slice](maxlen=settings.window + 1))
-
-    # -- the public face -----------------------------------------------------------------------------------
-
-    @property
-    def settings(self) -> Settings:
-        """Its settings; they never change."""
-        return self._settings
-
-    @property
-    def keep(self) -> int | None:
-        """Steps of which trace and log of growth keep everything; may be set at any time, and is not saved."""
-        return self._keep
-
-    @keep.setter
-    def keep(self, steps: int | None) -> None:
-        whole = isinstance(steps, int | np.integer) and not isinstance(steps, bool)
-        if steps is not None and not (whole and steps >= STEPS):
-            raise CogmapError(f"agent: keep is {steps!r}; give a whole number of {STEPS} steps or more, or None")
-        self._keep = self.map.growth.keep = steps
-
-    @property
-    def steps(self) -> int:
-        """Observations taken in so far."""
-        return self._state.steps
-
-    @property
-    def cost(self) -> float:
-        """What its moves have cost so far, as percepts said (`cost`); 0 where none did."""
-        return sum(total for _, total in self._state.costs.values())
-
-    @property
-    def belief(self) -> Belief:
-        """What it believes about where it is, after the last observation."""
-        if self._state.belief is None:
-            raise CogmapError("agent: it has seen nothing yet; call step(observation) first")
-        return self._state.belief
-
-    @property
-    def hypotheses(self) -> tuple[MapHypothesis, ...]:
-        """What it holds possible of the map and of where it is in it, the most probable first; `map` is that one."""
-        return self._recognition.compared()
-
-    @property
-    def learned_rates(self) -> tuple[RateOf, ...]:
-        """What it has learned of how reliable its sensors, its moves and the ways of this world are."""
-        return tuple(self._recognition.rates)
-
-    def steps_in(self, place: int) -> tuple[int, ...]:
-        """The last steps, a handful at most, at which it was in a place of its map, as it believes now.
-
-        Raises:
-            CogmapError: the map has no such place.
-        """
-        self.map.check_place(place)
-        return self._recognition.mirror.steps_in(place) if self._recognising else self.map.pose.steps_in(place)
-
-    @property
-    def certain(self) -> bool:
-        """Whether one place holds enough of the belief to learn (paper's threshold: 0.7)."""
-        return self.belief.certainty >= self.settings.certainty
-
-    @property
-    def preferences(self) -> GivenPreferences:
-        """The preferences that are, or were, in force for `plan`."""
-        self._require_plan()
-        return self._state.preferences if self._state.choice is None else self._state.choice.preferences
-
-    @property
-    def window(self) -> tuple[Slice, ...]:
-        """What `graph` is made of, the oldest step first."""
-        return tuple(self._state.window)
-
-    @property
-    def expected(self) -> Mapping[str, Hashable]:
-        """What each sensor was expected to show where the agent believes to be, before the last observation.
-
-        Of ways, for each action whether it was; None where nothing was known. Where the map was written anew it is what
-        is known now.
-        """
-        state = self._state
-        if state.expected is None:
-            learned = () if state.revised else updates(self.map.changes.since(state.begun)[0] or ())
-            state.expected = expected_at(self.map, self.belief.place, learned)
-        return state.expected
-
-    @property
-    def graph(self) -> FactorGraph:
-        """The factor graph of the current window; while it is open which map is right, with that as a variable."""
-        graph = window_graph(self.map, self.window)
-        return self._recognition.asked(graph, step=self.steps - 1) if self.steps else graph
-
     def prefer(
         self,
         sights: Mapping[Hashable, float] | None = None,
@@ -286,6 +114,8 @@ class Agent:
     def moved(self) -> None:
         """Be told that it was moved: the next observation is from anywhere, whatever action was answered last."""
         self._state.told = True
+
+    # -- the loop ------------------------------------------------------------------------------------------
 
     def step(self, observation: Mapping[str, Any]) -> int:
         """Take in one observation and answer with the index of the next action: `perceive`, `plan` and `act` in a row.
@@ -393,149 +223,6 @@ class Agent:
         state.action, state.acted = plan.action, True
         return plan.action
 
-    @property
-    def parts(self) -> dict[str, Any]:
-        """What it is made of, as plain JSON values: the kind of each part and its options."""
-        return parts_of(self.map, self.growth, self.planner)
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write everything the agent knows to an npz file (JSON header, schema version, no pickle).
-
-        Raises:
-            CogmapError: a label or a setting cannot be written, or the folder cannot be.
-        """
-        storage.write(path, *self.state())
-
-    def _check_whole(self) -> None:
-        if self._torn is not None:
-            raise CogmapError(f"agent: it is torn, {self._torn}; load it from a file, or make another")
-
-    def _whole(self, work: Callable[[], T]) -> T:
-        """Do it, or leave everything as it was; what is done within it is part of it."""
-        if self._torn is IN_STEP:
-            return work()
-        self._check_whole()
-        map_, state = self.map, self._state
-        before = before_step(map_, self._recognition, state, self._plan, self.rng, len(self.trace))
-        try:
-            self._torn = IN_STEP
-            result = work()
-            self._torn = None
-            release(map_)
-            return result
-        except BaseException as error:
-            if self._torn is not None:
-                self._go_back(before, error)
-            raise
-
-    def _go_back(self, before: Before, error: BaseException) -> None:
-        """As it was before; a second interrupt in the middle is waited out."""
-        self._torn = f"left in the middle of a step by a {type(error).__name__}"
-        for _ in range(3):
-            try:
-                undo_step(before, self.map, self._recognition)
-                self._state, self._plan, self.rng = before.state, before.plan, before.rng
-                self._cache = LocalCache(self.map, self.settings.look_ahead)
-                del self.trace[before.records :]
-                self._torn = None
-                return
-            except CogmapError as why:
-                self._torn = f"{self._torn}, and cannot go back ({why})"
-                return
-            except KeyboardInterrupt:  # it is raised in the end
-                continue
-
-    @classmethod
-    def load(
-        cls,
-        path: str | PathLike[str],
-        *,
-        sensors: Iterable[Sensor] | None = None,
-        pose: Pose | None = None,
-        growth: Growth | None = None,
-        planner: Planner | None = None,
-        settings: Settings | None = None,
-    ) -> Agent:
-        """The agent that `save` wrote; it walks on exactly as that one would have.
-
-        Args:
-            path: of the file.
-            sensors: new ones like those that it was made with, where some are not of this library.
-            pose, growth, planner: the same.
-            settings: others than those that it was saved with, to go by from now on.
-
-        Raises:
-            CogmapError: no such file, or it is no saved map, truncated, or from a newer schema.
-        """
-        if not isinstance(settings, Settings | None):  # pyright: ignore[reportUnnecessaryIsInstance]
-            raise CogmapError(f"load: settings is {settings!r}; give Settings(...), or none for those in the file")
-        with storage.reading(path) as (header, arrays):
-            return cls.from_state(
-                header, arrays, sensors=sensors, pose=pose, growth=growth, planner=planner, settings=settings
-            )
-
-    def state(self) -> tuple[dict[str, Any], Arrays]:
-        """Everything that the next steps depend on: a JSON header and arrays (the trace is left out).
-
-        Raises:
-            CogmapError: the agent is torn, or a label cannot be written.
-        """
-        self._check_whole()
-        _ = self.steps and self.expected  # the log of changes, which tells it, is not saved
-        map_, arrays = map_state(self.map)
-        header = {
-            "motions": _told(self.map.motions),
-            "settings": self.settings.to_dict(),
-            "parts": self.parts,
-            "rng": self.rng.bit_generator.state,
-            "map": map_,
-            "state": pack(self._state, arrays, "state"),
-        }
-        if self._recognising:
-            header["recognition"] = self._recognition.state(arrays)
-        return header, arrays
-
-    @classmethod
-    def from_state(
-        cls,
-        header: Mapping[str, Any],
-        arrays: Mapping[str, NDArray[Any]],
-        *,
-        sensors: Iterable[Sensor] | None = None,
-        pose: Pose | None = None,
-        growth: Growth | None = None,
-        planner: Planner | None = None,
-        settings: Settings | None = None,
-    ) -> Agent:
-        """The agent that `state` took apart; see `load`."""
-        agent = cls.__new__(cls)
-        made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth, planner=planner)
-        motions = _motions(header["motions"])
-        saved = Settings.from_dict(header["settings"])
-        agent._assemble(motions, *made, settings or saved, None)
-        agent.keep = KEEP
-        restore_map(agent.map, header["map"], arrays)
-        agent.rng.bit_generator.state = header["rng"]
-        agent._state = unpacked_state(header["state"], arrays, agent.map, agent.settings.window)
-        recognition = agent._recognition
-        if "recognition" in header:
-            recognition.restore(header["recognition"], arrays)
-        if not agent._recognising:
-            recognition.forget()
-        elif recognition.followed is None and agent._state.belief is not None:
-            recognition.know(agent._state.belief.place, step=agent._state.steps)
-        return agent
-
-    def _repr_html_(self) -> str:
-        """Its map, and where it believes to be."""
-        belief = (
-            f"<p>after {self.steps} steps: {safe(self.belief)}</p>" if self.steps else "<p>it has seen nothing yet</p>"
-        )
-        return f"<div>{belief}{self.map._repr_html_()}</div>"  # pyright: ignore[reportPrivateUsage]
-
-    def __repr__(self) -> str:
-        return f"Agent({self.map!r}, step {self.steps})"
-
     # -- the parts of a step -------------------------------------------------------------------------------
 
     def _infer(self, percept: Percept) -> None:
@@ -611,10 +298,6 @@ class Agent:
         """Whether one place holds enough of the belief, if the map is right."""
         return self.belief.message.certainty >= self.settings.certainty
 
-    def _require_plan(self) -> None:
-        if not self._state.steps:
-            raise CogmapError("agent: it has planned nothing yet; call step(observation) first")
-
     def _planned(self, preferences: GivenPreferences, rng: np.random.Generator) -> Plan:
         settings = self.settings
         places, q = self.belief.message.by_place
@@ -635,22 +318,3 @@ class Agent:
             structure=None if preferences else self._recognition.question,  # what is preferred comes first
             unseen=unseen_ways(self._state.percept, self.map.motions),
         )
-
-
-def _generator(seed: Seed) -> np.random.Generator:
-    try:
-        return np.random.default_rng(seed)
-    except (TypeError, ValueError) as error:
-        raise CogmapError(f"agent: seed is {seed!r}; use a whole number of 0 or more, or None") from error
-
-
-def _told(motions: Motions) -> dict[str, Any]:
-    """Actions as plain JSON values; where they have no displacements, who undoes whom is said instead."""
-    reverse = {} if motions.placed else {"reverse": motions.inverse}
-    return {"names": motions.names, "displacements": motions.displacements, **reverse}
-
-
-def _motions(told: Mapping[str, Any]) -> Motions:
-    if "reverse" in told:
-        return Motions(tuple(told["names"]), (), tuple(told["reverse"]))
-    return Motions.of(dict(zip(told["names"], told["displacements"], strict=True)))

@@ -116,7 +116,7 @@ def _whole(known: KnownMap, position: Any, size: int) -> Position:
     return whole
 
 
-def _sights(known: KnownMap, node: Hashable, model: GenerativeModel, sensor: int) -> dict[int, float]:
+def _sights(known: KnownMap, node: Hashable, model: GenerativeModel, sensor: int) -> Mapping[int, float]:
     """Shares of the labels of a sensor that a node shows, or may show; none where it says nothing."""
     if not model.sights_sensed:
         return {}

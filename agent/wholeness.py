@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
-from ..model import CognitiveMap, Savepoint, go_back, savepoint
-from ..planning import Plan
+from ..model import CogmapError, CognitiveMap, Savepoint, go_back, release, savepoint
+from ..planning import LocalCache, Plan
 from .recognition import Recognition
 from .state import State
+from .wiring import Wired
+
+T = TypeVar("T")
 
 IN_STEP = "in the middle of a step"
 """What is said of an agent while it takes one."""
@@ -62,3 +66,46 @@ def undo_step(before: Before, map_: CognitiveMap, recognition: Recognition) -> N
     go_back(map_, before.model)
     recognition.go_back(before.recognition)
     before.rng.bit_generator.state = before.drawn
+
+
+class Whole(Wired):
+    """An agent whose steps happen whole or not at all."""
+
+    def _check_whole(self) -> None:
+        if self._torn is not None:
+            raise CogmapError(f"agent: it is torn, {self._torn}; load it from a file, or make another")
+
+    def _whole(self, work: Callable[[], T]) -> T:
+        """Do it, or leave everything as it was; what is done within it is part of it."""
+        if self._torn is IN_STEP:
+            return work()
+        self._check_whole()
+        map_, state = self.map, self._state
+        before = before_step(map_, self._recognition, state, self._plan, self.rng, len(self.trace))
+        try:
+            self._torn = IN_STEP
+            result = work()
+            self._torn = None
+            release(map_)
+            return result
+        except BaseException as error:
+            if self._torn is not None:
+                self._go_back(before, error)
+            raise
+
+    def _go_back(self, before: Before, error: BaseException) -> None:
+        """As it was before; a second interrupt in the middle is waited out."""
+        self._torn = f"left in the middle of a step by a {type(error).__name__}"
+        for _ in range(3):
+            try:
+                undo_step(before, self.map, self._recognition)
+                self._state, self._plan, self.rng = before.state, before.plan, before.rng
+                self._cache = LocalCache(self.map, self.settings.look_ahead)
+                del self.trace[before.records :]
+                self._torn = None
+                return
+            except CogmapError as why:
+                self._torn = f"{self._torn}, and cannot go back ({why})"
+                return
+            except KeyboardInterrupt:  # it is raised in the end
+                continue

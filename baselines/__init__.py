@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from .chart_frontier import ChartFrontier
 from .cscg import CscgAgent, CscgSettings
 from .frontier import FrontierAgent
 from .habit import HabitAgent
 from .random_walk import RandomAgent
 
-__all__ = ["CscgAgent", "CscgSettings", "FrontierAgent", "HabitAgent", "RandomAgent"]
+__all__ = ["ChartFrontier", "CscgAgent", "CscgSettings", "FrontierAgent", "HabitAgent", "RandomAgent"]

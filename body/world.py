@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import gymnasium as gym
+import numpy as np
 from gymnasium import spaces
 
 from ..model import UNSEEN
@@ -114,6 +115,12 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
         """Low-level steps since `begin`: until the white tile was stood on, or until now."""
         white = [step for step in self.rooms.tally.white if step >= begin]
         return (white[0] if white else self.body.steps) - begin
+
+    def scene(self, *, pixels: int = 16) -> tuple[Any, Any]:
+        """The world from above, `[height, width, 3]`, and the path so far, `[n, 2]` in its pixels: for pictures."""
+        rooms = self.rooms
+        image = np.asarray(rooms.grid.render(pixels, (-1, -1))).astype(np.uint8)
+        return image, (np.array([pose[:2] for pose in rooms.tally.path], dtype=np.float64) + 0.5) * pixels - 0.5
 
     def _named(self, label: Any) -> Any:
         return label if self.rooms.white is None else str(label)

@@ -22,19 +22,21 @@ if TYPE_CHECKING:
     from .running import Moment, Run, run
     from .session import Session, chart_of, default_steps, draw_start, explored, set_out
     from .text import count, number, spread
+    from .yardsticks import frontier_mean, tour_steps
 
 __all__ = [
     "AGENTS", "BELIEVED", "CSCG", "WEIGHT", "Cell", "ExploreRun", "IdRun", "Key", "KidnapRun", "Ledger", "Maker",
     "Moment", "NavigateRun", "Parts", "Record", "Row", "Run", "Session", "Trail", "Truth", "Verdict",
     "WorkerLostError", "chart_of", "check_goal", "check_kidnap", "check_outputs", "completed", "count",
     "default_steps", "draw_start", "exploration", "explore", "explore_many", "explored", "file_named",
-    "frontier_steps", "ids_result", "is_registered", "judge", "kept_rows", "kidnap", "kidnap_many", "kidnap_result",
-    "map_seeds", "map_tasks", "mean", "navigate", "navigate_many", "navigate_result", "number", "oracle_steps",
-    "parse_goal", "picture_of", "run", "run_cell", "run_cells", "run_id", "run_ids", "set_out", "shortest", "spread",
-    "std", "summarise", "unused", "walk", "workers", "write_json", "write_picture",
+    "frontier_mean", "frontier_steps", "ids_result", "is_registered", "judge", "kept_rows", "kidnap", "kidnap_many",
+    "kidnap_result", "map_seeds", "map_tasks", "mean", "navigate", "navigate_many", "navigate_result", "number",
+    "oracle_steps", "parse_goal", "picture_of", "run", "run_cell", "run_cells", "run_id", "run_ids", "set_out",
+    "shortest", "spread", "std", "summarise", "tour_steps", "unused", "walk", "workers", "write_json",
+    "write_picture",
 ]  # fmt: skip
 
-_EARLY = "text pool running output ledger records low_level registered parts judging knowledge session"
+_EARLY = "text pool running output ledger records low_level registered parts judging knowledge session yardsticks"
 _MODULES = f"{_EARLY} goals exploring kidnapping navigating cells"
 
 

@@ -19,6 +19,7 @@ from .low_level import Meter, low_level
 from .records import OPTIONAL, Record, mean, ratio, std
 from .running import Moment, Watch, run
 from .session import Many, Options, Session, World, chart_of, described, head_of, many, set_out
+from .yardsticks import measured
 
 EFFORT = 4_000_000  # of the oracle, search states times rooms squared: some seconds
 
@@ -42,6 +43,10 @@ class ExploreRun(Record):
         low_level_steps: of a body, until every room was entered; its exact oracle is `low_level_oracle`.
         low_level_steps_to_see: until nine tenths of the tiles were seen.
         tiles_seen: the share at the end.
+        metres: on a graph, until every place had been entered; None where lengths are not known.
+        frontier_mean, frontier_metres: what nearest-frontier search takes from there, by steps and by metres, mean over
+            draws of its ties.
+        tour_steps: of the best offline tour found.
     """
 
     seed: int
@@ -61,6 +66,10 @@ class ExploreRun(Record):
     low_level_oracle: int | None = field(default=None, metadata=OPTIONAL)
     low_level_steps_to_see: int | None = field(default=None, metadata=OPTIONAL)
     tiles_seen: float | None = field(default=None, metadata=OPTIONAL)
+    metres: float | None = field(default=None, metadata=OPTIONAL)
+    frontier_mean: float | None = field(default=None, metadata=OPTIONAL)
+    frontier_metres: float | None = field(default=None, metadata=OPTIONAL)
+    tour_steps: int | None = field(default=None, metadata=OPTIONAL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,10 +114,10 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
     instead = frontier_steps(chart_of(world), session.start) if oracle is None else None
     left_out = f"oracle_steps, frontier_steps: more than {MOST_WALKED} places" if oracle is instead is None else None
     figures = (known.visit_all, known.learn, known.complete, oracle, seconds, instead)
+    worth, low = _worth(session, known.trail), Meter.of(session.world).explored()
+    beside = measured(chart_of(world), session.start, done.truth, known.visit_all)
     return Walk(
-        ExploreRun(
-            seed, session.start, *figures, left_out, *_worth(session, known.trail), *Meter.of(session.world).explored()
-        ),
+        ExploreRun(seed, session.start, *figures, left_out, *worth, *low, *beside),
         done.truth,
         session.agent,
         session.truth,
@@ -158,6 +167,9 @@ def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
     if any(run.map_right is not None for run in runs):
         summary["map_right"] = sum(run.map_right is True for run in runs)
         for name in ("places", "known", "certain_but_wrong"):
+            summary[f"mean_{name}"] = mean(getattr(run, name) for run in runs)
+    for name in ("metres", "frontier_mean", "frontier_metres", "tour_steps"):
+        if any(getattr(run, name) is not None for run in runs):
             summary[f"mean_{name}"] = mean(getattr(run, name) for run in runs)
     return summary | low_level(runs, "low_level_steps", "low_level_oracle", "low_level_steps_to_see", "tiles_seen")
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..agent import Agent
-from ..baselines import CscgAgent
+from ..baselines import ChartFrontier, CscgAgent
 from ..model import CognitiveMap
 from ..worlds import Chart, Maze, Place
 from .judging import BELIEVED, Trail
@@ -94,6 +94,8 @@ class Truth:
         """
         if isinstance(walker, Agent):
             return self.learned(walker.map)
+        if isinstance(walker, ChartFrontier):  # it is told where ways lead when it enters a place
+            return len(walker.entered) == len(self.number)
         if isinstance(walker, CscgAgent):
             B, places = walker.place_transitions(path, len(self.number)), np.arange(len(self.number))
             return all(bool((B[self._target[:, a], places, a] >= BELIEVED).all()) for a in walker.tries)

@@ -9,7 +9,7 @@ from typing import Any, Protocol, Self
 import numpy as np
 
 from ..agent import Agent, Settings, TurningAgent
-from ..baselines import CscgAgent, CscgSettings, FrontierAgent, RandomAgent
+from ..baselines import ChartFrontier, CscgAgent, CscgSettings, FrontierAgent, RandomAgent
 from ..model import GROWTHS, POSES, Bearings, CogmapError, Pose, Sensor, Sight, StaticGrowth, Ways
 from ..planning import CHOICES, POLICIES, LShaped, MapGuided, Planner, Sampled
 from ..worlds import Chart, HasChart, Motions, World, offered
@@ -127,6 +127,8 @@ class Parts:
             seen = len(chart.places if positions else set(chart.sights.values()))
             told: dict[str, Any] = {"observations": seen, "positions": positions, "navigation": how}
             return CscgAgent(motions, settings=self.cscg, seed=seed, **told)
+        if self.agent == "frontier" and not motions.displacements:
+            return ChartFrontier(chart, seed=seed)
         if not motions.displacements:
             raise CogmapError(f"agent {self.agent} reckons where it is, and these actions have no displacements")
         return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
@@ -160,7 +162,8 @@ def _sensors(world: Any) -> list[Sensor] | None:
     if not names or sorted(names) == ["open", "sight"]:
         return None
     own: dict[str, Sensor] = {"open": Ways(learned="bearings" in names), "bearings": Bearings()}
-    return [own.get(name) or Sight(name) for name in names]
+    sights = [Sight(name) for name in names if name not in own]
+    return [*sights, *(own[name] for name in reversed(names) if name in own)]
 
 
 def _observed(world: Any) -> list[str]:

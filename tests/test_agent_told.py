@@ -8,9 +8,12 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent
 from cogmap.inference.hypotheses import Sensed, Tracker, WayScheme
-from cogmap.model import CogmapError, Motions
+from cogmap.model import CogmapError, Features, Motions, Sight, Ways
 from cogmap.model.factors.pose.odometry import odometry
+from cogmap.planning import TERMS, Cost, Planner
 from cogmap.worlds import load_world
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from walks import GRID
 
 from cogmap import UNSEEN
@@ -139,3 +142,92 @@ def test_what_cannot_have_been_said_of_a_move_is_refused(said: dict[str, Any], m
     tracker = Tracker(WayScheme(2, (1, 0), ((1,), (-1,))))
     with pytest.raises(CogmapError, match=message):
         tracker.step(Sensed((0,), (1.0, 1.0), **said), [1])
+
+
+# -- what cannot be so -----------------------------------------------------------------------------------------
+
+NUMBERS = st.floats(allow_nan=True, allow_infinity=True) | st.integers(-(10**9), 10**9)
+NO_NUMBERS = st.none() | st.text(max_size=3) | st.booleans() | st.just(np.ma.masked) | st.lists(NUMBERS, max_size=2)
+UNHASHABLE = st.lists(st.integers(), max_size=3) | st.builds(np.zeros, st.integers(1, 3))
+NO_LABELS = UNHASHABLE | st.none() | st.just(float("nan")) | st.just(np.ma.masked) | st.tuples(st.just([]))
+NO_LIKELIHOODS = (
+    st.dictionaries(st.text(max_size=2), st.just(0.0), max_size=3)
+    | st.dictionaries(st.text(max_size=2), st.floats(max_value=-1e-9), min_size=1, max_size=3)
+    | st.dictionaries(st.text(max_size=2), NO_NUMBERS | st.just(np.inf), min_size=1, max_size=3)
+    | st.just({UNSEEN: 1.0})
+)
+NO_LOOK = st.floats(max_value=-1e-9) | st.floats(min_value=1.001) | st.text() | st.just(float("nan"))
+NO_WAYS = (
+    st.lists(st.booleans(), max_size=9).filter(lambda ways: len(ways) != 5)
+    | st.tuples(st.lists(st.booleans(), min_size=4, max_size=4), NO_LOOK).map(lambda parts: [*parts[0], parts[1]])
+    | st.dictionaries(st.text(max_size=3).filter(lambda name: name not in GRID), st.booleans(), min_size=1)
+    | NO_NUMBERS.filter(lambda value: not isinstance(value, list))
+    | NUMBERS
+)
+NO_VECTORS = (
+    st.lists(st.floats(-9, 9), max_size=6).filter(lambda numbers: len(numbers) != 3)
+    | st.lists(st.just(float("nan")) | st.just(np.inf) | st.just(1e200), min_size=3, max_size=3)
+    | NO_NUMBERS.filter(lambda value: not isinstance(value, list))
+    | NUMBERS
+    | st.builds(np.zeros, st.just((3, 1)))
+)
+BAD: dict[str, st.SearchStrategy[Any]] = {
+    "sight": NO_LABELS | NO_LIKELIHOODS,
+    "smell": NO_LABELS | NO_LIKELIHOODS,
+    "view": NO_VECTORS,
+    "open": NO_WAYS,
+    "taken": st.integers().filter(lambda action: not 0 <= action < 5)
+    | st.floats()
+    | NO_NUMBERS.filter(lambda value: not (isinstance(value, str) and value in GRID)),
+    "outcome": NO_NUMBERS | NUMBERS,
+    "displacement": NO_VECTORS.filter(lambda value: np.shape(value) != (2,)),
+    "turn": NO_NUMBERS | st.just(np.inf),
+    "moved": NO_NUMBERS.filter(lambda value: not isinstance(value, bool)) | NUMBERS,
+    "cost": NO_NUMBERS | st.floats(max_value=-1e-9) | st.just(float("nan")),
+    "colour": st.integers(),
+}
+
+
+def sensing() -> Agent:
+    """An agent of every kind of sensor that has seen something already."""
+    agent = Agent(GRID, sensors=[Sight(), Sight("smell"), Features("view", size=3), Ways()], seed=0)
+    for action in (None, "right"):
+        seen = {"sight": "hall", "smell": {"tea": 1, "smoke": 0.2}, "view": [1, 0, 2], "open": walls("right", "left")}
+        agent.perceive(seen if action is None else {**seen, "taken": action, "cost": 2.0})
+        agent.act()
+    return agent
+
+
+SENSING = sensing()
+
+
+@given(bad=st.sampled_from(sorted(BAD)).flatmap(lambda key: st.tuples(st.just(key), BAD[key])))
+@settings(max_examples=100, deadline=None)
+def test_whatever_is_no_percept_is_refused_in_a_line_and_leaves_the_agent_as_it_was(bad: tuple[str, Any]) -> None:
+    key, value = bad
+    before, arrays = SENSING.state()
+    good = {"sight": "new", "smell": UNSEEN, "view": [9.0, 9, 9], "open": walls("up")}
+    with pytest.raises(CogmapError) as raised:
+        SENSING.step({**good, key: value})
+    assert str(raised.value).startswith("observation: ")
+    assert "\n" not in str(raised.value)
+    after, again = SENSING.state()
+    assert after == before
+    assert arrays.keys() == again.keys()
+    assert all(np.array_equal(arrays[name], again[name]) for name in arrays)
+
+
+def test_what_moves_cost_is_counted_and_kept(tmp_path: Any) -> None:
+    agent = Agent(GRID, planner=Planner(terms=[*TERMS, Cost(price=0.5)]), seed=0)
+    seen = {"sight": "hall", "open": walls("right", "left")}
+    agent.step(seen)
+    assert (agent.cost, agent.trace[-1].cost, agent.plan.model.costs) == (0.0, None, None)
+    for cost in (3.0, 5.0):
+        agent.step({**seen, "taken": "right", "cost": cost})
+    assert (agent.cost, agent.trace[-1].cost) == (8.0, 5.0)
+    np.testing.assert_allclose(agent.plan.model.costs, [4.0, 4.0, 4.0, 4.0, 0.0])  # to stay costs nothing
+    agent.save(tmp_path / "agent.npz")
+    again = Agent.load(tmp_path / "agent.npz")
+    assert (again.cost, again.planner.terms) == (8.0, agent.planner.terms)
+    assert again.step({**seen, "cost": 1.0}) == agent.step({**seen, "cost": 1.0})
+    assert again.trace[-1].G == agent.trace[-1].G

@@ -92,7 +92,7 @@ def test_preferences_must_be_finite(value: float) -> None:
     ):
         agent.prefer({"kitchen": 1.0, "hall": value})
     agent.step(PLAIN)
-    assert agent.trace[-1].G["utility"] == 0.0
+    assert agent.trace[-1].G.get("utility", 0.0) == 0.0
 
 
 # -- trace -----------------------------------------------------------------------------------------------------

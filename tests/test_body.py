@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -196,6 +197,26 @@ def test_a_missing_extra_is_named_with_what_installs_it() -> None:
     assert done.returncode == 2
     assert "pip install 'cogmap[minigrid]'" in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+def test_pictures_have_the_parts_of_the_papers_figure(tmp_path: Path) -> None:
+    from cogmap.views import Scene, explore_figure
+
+    world = embodied("t_maze")
+    run(world, steps=4, seed=0)
+    image, path = world.scene(pixels=8)
+    assert image.shape == (8 * world.rooms.height, 8 * world.rooms.width, 3)
+    assert len(path) == world.low_level_steps + 1
+    assert (np.abs(np.diff(path, axis=0)).sum(axis=1) <= 8).all()
+    figure = explore_figure(world.chart, [world.place], scene=Scene(image, path))
+    assert [ax.get_title() for ax in figure.axes] == ["path, from black to white", "a body's path, from black to white"]
+    with pytest.raises(CogmapError, match="is no RGB"):
+        Scene(image[..., 0], path)
+    with pytest.raises(CogmapError, match="no x and y"):
+        Scene(image, path[:, 0])
+    file = tmp_path / "figure.svg"
+    assert cogmap("explore", "minigrid:1x3", "--out", file).exit_code == 0
+    assert file.stat().st_size > 10_000
 
 
 def test_halls_have_four_colours() -> None:

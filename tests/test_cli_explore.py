@@ -102,7 +102,7 @@ def test_sights_and_formats_of_files() -> None:
         (["bare.json"], "sight"),
         (["bare.json", "--sights", "many"], "many"),
         (["bare.json", "--sights", "0"], "0"),
-        (["bare.json", "--sights", "distinct", "--agent", "frontier"], "reckons"),
+        (["bare.json", "--sights", "distinct", "--agent", "random"], "reckons"),
         (["maze.txt", "--format", "morse"], "unknown format 'morse'"),
     ],
 )

@@ -15,6 +15,7 @@ FOLDER = Path(__file__).parent.parent / "examples"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
 LECTURE = FOLDER / "lecture.ipynb"
 SAYS = {
+    "body_in_minigrid": ("low-level steps: floor", "all 9 rooms in", "9 places, 9 visited"),
     "inspect_factor_graph": ("M(moved20)", "{0: 0.5, 1: 0.5}", "less log evidence"),
     "kidnap_and_recover": ("P(moved) 1.000", "not certain", "still 16 places"),
     "own_factor_graph": ("evidence lower bound", "P(today | the day before)", "fever"),

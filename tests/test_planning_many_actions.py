@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent
 from cogmap.model import Motions, Whereabouts
-from cogmap.planning import Plan
+from cogmap.planning import Plan, Planner
 from cogmap.worlds import GRID, MazeEnv, hall
 
 MAZE = hall(4, 5, sights=None)
@@ -24,7 +24,7 @@ def planned(actions: int, *, walked: int, opened: int | None = None) -> Plan:
     """The plan after a walk, with so many further actions, one of which may have been open at the start."""
     world = MazeEnv(MAZE)
     seen, _ = world.reset(options={"start": (0, 0)})
-    agent = Agent(with_more(actions), seed=0)
+    agent = Agent(with_more(actions), planner=Planner(explorer=None), seed=0)
     map_, room, place = agent.map, (0, 0), 0
     for step, name in enumerate(["stay", *WALK[:walked]]):
         action = GRID.names.index(name)

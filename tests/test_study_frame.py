@@ -20,6 +20,7 @@ from pages import Page
 from toy_study import NASTY, Tabled, Toy
 
 NAMES = [
+    "buildings",
     "cost",
     "distances",
     "donut",
@@ -98,7 +99,7 @@ def test_every_study_is_found_and_says_what_it_asks() -> None:
 
 
 def test_unknown_studies_are_refused() -> None:
-    with pytest.raises(CogmapError, match=r"no study is called 'x'; choose one of cost, distances.*, or all"):
+    with pytest.raises(CogmapError, match=r"no study is called 'x'; choose one of buildings, cost.*, or all"):
         study_named("x")
 
 
@@ -239,7 +240,7 @@ def test_the_help_names_every_study() -> None:
     ("arguments", "message"),
     [
         ([], "Missing argument"),
-        (["nothing"], "no study is called 'nothing'; choose one of cost"),
+        (["nothing"], "no study is called 'nothing'; choose one of buildings"),
         (["donut", "--runs", "0"], "--runs"),
         (["donut", "--agents", "-1"], "--agents"),
         (["donut", "--agents", "many"], "--agents"),

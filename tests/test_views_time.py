@@ -68,7 +68,7 @@ def test_terms_are_those_of_the_plan_and_add_up_to_G() -> None:
 
 
 def test_the_chosen_policy_is_marked_even_where_others_are_better() -> None:
-    plan = half_way().agent.plan
+    plan = split().agent.plan
     worst = int(plan.expected_free_energy.G.argmax())
     for chosen in (plan.chosen, worst):
         ax = plot_terms(replace(plan, chosen=chosen), most=3)

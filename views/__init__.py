@@ -8,7 +8,7 @@ place of the chart, or row and column, that the agent takes as its origin.
 from .belief_plot import plot_belief, plot_belief_bars, plot_belief_map
 from .explain import explain
 from .explanation import Explanation
-from .figures import explore_figure
+from .figures import explore_figure, world_figure
 from .graph_plot import plot_factor_graph
 from .growth_frames import GrowthFrames
 from .map_picture import MapPicture
@@ -16,6 +16,7 @@ from .map_plot import plot_map
 from .policy_plot import plot_policies, policy_paths
 from .recording import Recorder, Recording
 from .replay import replay_html
+from .scene_plot import Scene, plot_scene
 from .showing import Shown, show
 from .terms_plot import plot_terms
 from .theme import (
@@ -49,6 +50,7 @@ __all__ = [
     "MapPicture",
     "Recorder",
     "Recording",
+    "Scene",
     "Shown",
     "Theme",
     "contrast",
@@ -65,6 +67,7 @@ __all__ = [
     "plot_free_energy",
     "plot_map",
     "plot_policies",
+    "plot_scene",
     "plot_surprise",
     "plot_terms",
     "plot_world",
@@ -73,4 +76,5 @@ __all__ = [
     "show",
     "sight_colour",
     "theme_of",
+    "world_figure",
 ]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..model import CognitiveMap
 from ..worlds import Chart
 from .map_plot import plot_map
+from .scene_plot import Scene, plot_scene
 from .time_plots import Trace, plot_expected_free_energy, plot_free_energy
 from .world_plot import plot_world, world_picture
 
@@ -17,10 +18,27 @@ if TYPE_CHECKING:
 WIDTH = 5.5  # of a plot, inches
 
 
+def world_figure(chart: Chart, *, title: str | None = None) -> Figure:
+    """A world, large enough to read."""
+    from matplotlib.figure import Figure
+
+    cells = world_picture(chart).cells.values()
+    rows, columns = (max(part) - min(part) + 1 for part in zip(*cells, strict=True))
+    figure = Figure(figsize=(1.6 * WIDTH, min(max(1.6 * WIDTH * rows / columns, 2.0), 12.0)), layout="constrained")
+    plot_world(chart, title=chart.name if title is None else title, ax=figure.add_subplot())
+    return figure
+
+
 def explore_figure(
-    chart: Chart, path: Sequence[Any], *, map_: CognitiveMap | None = None, trace: Trace = (), title: str | None = None
+    chart: Chart,
+    path: Sequence[Any],
+    *,
+    map_: CognitiveMap | None = None,
+    trace: Trace = (),
+    title: str | None = None,
+    scene: Scene | None = None,
 ) -> Figure:
-    """The world with the path, the map learned, F and G over time.
+    """The world with the path, the map learned, F and G over time; of a body, what it walked through comes first.
 
     Args:
         chart: the true map: `world.chart`, or a maze.
@@ -28,13 +46,15 @@ def explore_figure(
         map_: what was learned; without it the world alone is shown.
         trace: the agent's records; without them the lower half is left out.
         title: above everything.
+        scene: the world as it looks from above, if it does.
 
     Raises:
         CogmapError: what the plots raise.
     """
     from matplotlib.figure import Figure
 
-    across = 1 if map_ is None else 2
+    first = int(scene is not None)
+    across = (1 if map_ is None else 2) + first
     cells = world_picture(chart).cells.values()
     rows, columns = (max(part) - min(part) + 1 for part in zip(*cells, strict=True))
     above = min(max(WIDTH * rows / columns, 2.0), 6.5) + 0.4
@@ -43,10 +63,12 @@ def explore_figure(
     if title is not None:
         figure.suptitle(title, parse_math=False)
     grid = figure.add_gridspec(len(heights), across, height_ratios=heights)
-    plot_world(chart, path=path, title="path, from black to white", ax=figure.add_subplot(grid[0, 0]))
+    plot_world(chart, path=path, title="path, from black to white", ax=figure.add_subplot(grid[0, first]))
+    if scene is not None:
+        plot_scene(scene, title="a body's path, from black to white", ax=figure.add_subplot(grid[0, 0]))
     if map_ is not None:
         hollow = "" if map_.visited.all() else " (hollow: imagined)"
-        plot_map(map_, title=f"map learned{hollow}", ax=figure.add_subplot(grid[0, 1]))
+        plot_map(map_, title=f"map learned{hollow}", ax=figure.add_subplot(grid[0, first + 1]))
     if trace:
         plot_free_energy(trace, title="free energy and certainty", ax=figure.add_subplot(grid[1, 0]))
     if trace and map_ is not None:

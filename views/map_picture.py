@@ -24,7 +24,7 @@ LEAST = 0.05  # transitions that are less probable are not drawn
 DIGITS = 4  # of a probability
 KNOWN = ("unknown", "imagined", "walked", "refuted")  # as in `CognitiveMap.to_networkx`; a picture has the index
 
-Place = tuple[tuple[int, ...] | None, bool, int | None, float]
+Place = tuple[tuple[float, ...] | None, bool, int | None, float]
 """Position, whether it was visited, number of the most probable sight (None before the first look), its probability."""
 
 Row = tuple[int, tuple[tuple[int, float], ...]]
@@ -52,8 +52,9 @@ class MapPicture:
     @classmethod
     def recorded(cls, data: Mapping[str, Any]) -> MapPicture:
         """The picture of a recording before its first step."""
-        motions = dict(zip(data["motions"]["names"], data["motions"]["displacements"], strict=True))
-        return cls(Motions.of(motions), [decode(label) for label in data["sights"]])
+        names, vectors = data["motions"]["names"], data["motions"]["displacements"]
+        motions = Motions.of(dict(zip(names, vectors, strict=True))) if vectors else Motions(tuple(names))
+        return cls(motions, [decode(label) for label in data["sights"]])
 
     def apply(self, delta: Mapping[str, Any]) -> None:
         """Take up what changed: `size`, `places` and `ways`, each only where it is another."""
@@ -96,8 +97,16 @@ class MapPicture:
         return any(entry[0] is not None for entry in self.places)
 
     @property
+    def measured(self) -> bool:
+        """Whether positions were measured, in metres; else they are rows and columns."""
+        first = next((entry[0] for entry in self.places if entry[0] is not None), ())
+        return any(isinstance(part, float) for part in first)
+
+    @property
     def cells(self) -> Mapping[int, Cell]:
         """Row and column of each place that has a position; all are laid out where none has one."""
+        if self.measured:
+            return _from_above({place: entry[0] for place, entry in enumerate(self.places) if entry[0] is not None})
         if self.located:
             return {place: flat(entry[0]) for place, entry in enumerate(self.places) if entry[0] is not None}
         if self.layout is not None:
@@ -119,7 +128,7 @@ class MapPicture:
             for to, q in likely if place in cells and action != self.motions.stay else ():
                 if q >= LEAST and to != place and to in cells:
                     links.append((place, to, q))
-                elif q >= LEAST and to == place and self.located and (known or q > 0.5):
+                elif q >= LEAST and to == place and self.located and not self.measured and (known or q > 0.5):
                     walls.append((*_bar(cells[place], flat(self.motions.displacements[action])), q))
         return Picture(cells, {place: self.sights[sight] for place, sight in seen}, links, walls)
 
@@ -138,6 +147,18 @@ class MapPicture:
                     continue
                 graph.add_edge(place, to, key=name, action=name, probability=probability, known=KNOWN[known])
         return graph
+
+
+def _from_above(where: Mapping[int, Sequence[float]]) -> Mapping[int, Cell]:
+    """Row and column of places in metres, north up, what lies higher further up; the median of steps is a unit."""
+    from scipy.spatial import KDTree
+
+    space = np.array([(*position, 0.0, 0.0)[:3] for position in where.values()], dtype=np.float64)
+    points = space[:, :2] + space[:, 2:] * (0.0, 0.5)
+    if len(points) > 1:
+        nearest = KDTree(points).query(points, k=2)[0][:, 1]
+        points = points / (np.median(nearest[nearest > 0.0]) if nearest.any() else 1.0)
+    return {place: (0.0 - y, x) for place, (x, y) in zip(where, points.tolist(), strict=True)}
 
 
 def _bar(cell: Cell, way: Cell) -> tuple[Cell, Cell]:

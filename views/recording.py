@@ -9,6 +9,7 @@ from typing import Any
 
 from ..agent import Agent, StepRecord
 from ..model import CogmapError, decode, encode, plain, shown, window_graph
+from ..planning import Term
 from ..worlds import Chart, Place
 from .map_picture import KNOWN, MapPicture
 from .recording_check import check
@@ -95,6 +96,8 @@ class Recorder:
         self._frames: list[dict[str, Any]] = []
         self._origin: int | None = None
         self._window = WindowWatch()
+        self._terms: dict[str, Term] = {}  # of all plans
+        self._named: list[tuple[str, ...]] = []  # those of each
 
     def __len__(self) -> int:
         return len(self._frames)
@@ -129,6 +132,9 @@ class Recorder:
             "plan": plan_frame(agent.plan),
             "window": self._window.delta(window_graph(agent.map, agent.window)),
         }
+        terms = agent.plan.expected_free_energy.terms
+        self._terms |= {term.name: term for term in terms if term.name not in self._terms}
+        self._named.append(tuple(term.name for term in terms))
         self._frames.append(frame)
 
     def _fresh(self, agent: Agent) -> StepRecord:
@@ -157,21 +163,21 @@ class Recorder:
         if self._agent is None or not self._frames:
             raise CogmapError("recorder: nothing was recorded; call add after agent.step")
         map_, motions = self._agent.map, self._agent.map.motions
-        vectors = [list(vector) for vector in motions.displacements]
+        vectors = [list(vector) for vector in motions.displacements] if motions.placed else []
         data = {
             "format": FORMAT,
             "schema": SCHEMA,
             "title": self._title,
             "motions": {"names": list(motions.names), "displacements": vectors, "stay": motions.stay},
             "settings": self._agent.settings.to_dict(),
-            "terms": [term_json(term) for term in self._agent.plan.expected_free_energy.terms],
+            "terms": [term_json(term) for term in self._terms.values()],
             "known": list(KNOWN),
             "sights": [encode(label) for label in map_.sights],
             "places": [encode(plain(place)) for place in self._places],
             "world": self._world,
             "origin": self._origin,
             "goals": self._goals,
-            "frames": list(self._frames),
+            "frames": [_of_all(f, names, self._terms) for f, names in zip(self._frames, self._named, strict=True)],
         }
         return Recording(data)
 
@@ -207,3 +213,17 @@ def _frame(agent: Agent, record: StepRecord) -> dict[str, Any]:
         "certain": record.certain,
         **{name: round(float(getattr(record, name)), DIGITS) for name in NUMBERS},
     }
+
+
+def _of_all(frame: dict[str, Any], names: tuple[str, ...], terms: Iterable[str]) -> dict[str, Any]:
+    """A frame with a value for every term that any plan had, 0 of those that its own has not."""
+    terms = tuple(terms)
+    if names == terms:
+        return frame
+
+    def padded(values: list[float]) -> list[float]:
+        of = dict(zip(names, values, strict=True))
+        return [of.get(name, 0.0) for name in terms]
+
+    plan = frame["plan"]
+    return {**frame, "plan": {**plan, "terms": [padded(row) for row in plan["terms"]], "mean": padded(plan["mean"])}}

@@ -11,7 +11,7 @@ from .drawing import draw
 from .environment import MazeEnv
 from .errors import WorldError
 from .generate import comb, hall, office, random_maze, rings, spiral
-from .graph import POSES, GraphWorld, Layout, geometric, portal_hall, read_graph, ring, torus
+from .graph import POSES, GraphWorld, Layout, geometric, is_graph_file, portal_hall, read_graph, ring, torus
 from .labyrinth import labyrinth
 from .load import load_world, register_worlds, world_of
 from .maze import Door, Label, Maze, Position
@@ -20,12 +20,13 @@ from .noise import NOISES, NoisyWorld
 from .oracle import MOST_EXACT, MOST_TOUR, MOST_WALKED, covering_steps, covering_walk, frontier_walk, tour
 from .part import ChartPart
 from .protocol import CanClose, CanDisplace, Chart, HasChart, Observation, Place, World, offered, place_of
-from .routes import shortest_path, walk_length
+from .routes import BY, Routes, shortest_path, walk_length
 from .text import format_maze, parse_maze
 from .text_styles import FORMATS, read_maze
 from .wrappers import ListedWays, StateWorld, UnseenWays, frozen_lake
 
 __all__ = [
+    "BY",
     "FORMATS",
     "GRID",
     "MAZES",
@@ -52,6 +53,7 @@ __all__ = [
     "Place",
     "PlaceEnv",
     "Position",
+    "Routes",
     "StateWorld",
     "UnseenWays",
     "World",
@@ -67,6 +69,7 @@ __all__ = [
     "frozen_lake",
     "geometric",
     "hall",
+    "is_graph_file",
     "label_colour",
     "labyrinth",
     "load_world",

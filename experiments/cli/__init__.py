@@ -13,6 +13,7 @@ from .inspect import inspect_command
 from .kidnap import kidnap_command
 from .navigate import navigate_command
 from .replay import replay_command
+from .show import show_command
 from .study import study_command
 from .worlds import worlds_command
 
@@ -39,6 +40,7 @@ def _cogmap(context: typer.Context, version: Version = False) -> None:  # pyrigh
 
 for _command in (
     worlds_command,
+    show_command,
     explore_command,
     navigate_command,
     kidnap_command,

@@ -51,6 +51,7 @@ def explore_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    told: opt.Told = None,
     view: opt.View = None,
     tiles: opt.Tiles = None,
     policies: opt.Policies = None,
@@ -70,7 +71,7 @@ def explore_command(
     """
     from ... import experiments as lab
     from ...model import GROWTHS, CogmapError
-    from ...views import explore_figure
+    from ...views import Scene, explore_figure
     from .registered import run_registered
     from .walk_text import show_walk
 
@@ -83,7 +84,7 @@ def explore_command(
         run_registered(world, errand=False, **how, jobs=jobs, json=json, refused=refused)
         return
     lower: Any = {"view": view, "tiles": tiles}
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
     options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine, "pose": pose}
     every = [lab.Parts.named(agent, preset=preset, growth=name, **options) for name in names]
@@ -103,7 +104,9 @@ def explore_command(
                 made = lab.explore_many(place, agent=parts, **walked, **where)
                 results.append(lab.exploration(place, made, agent=parts, **walked))
         _show_sweeps(results)
-    done = None if sweep and not (save or trace or picture) else _walk(place, chart, seed, every[0], walked, trace)
+    seen: list[Any] = []
+    one = not sweep or save or trace or picture
+    done = _walk(place, chart, seed, every[0], walked, trace, seen) if one else None
     if done is not None and not sweep:
         show_walk(chart, done, agent=agent)
         results = [lab.exploration(place, [done.run], agent=every[0], **walked)]
@@ -116,7 +119,9 @@ def explore_command(
         say(f"No picture: more than {MOST_DRAWN} rooms were walked through, or stand beside.")
         picture = None
     if done is not None and picture is not None and shown is not None:
-        known = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
+        known: dict[str, Any] = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
+        if hasattr(world_seen := seen[0].unwrapped, "scene"):
+            known["scene"] = Scene(*world_seen.scene())
         with progress("drawing", 1):
             title = f"{chart.name}{'' if shown is chart else ' (the part walked)'}, {agent}, seed {seed}"
             picture = lab.write_picture(
@@ -143,8 +148,8 @@ def _check(agent: str, growths: int, save: Path | None, trace: Path | None, out:
         raise CogmapError("--dask is for sweeps; give --runs as well, or leave --dask out")
 
 
-def _walk(place: Any, chart: Chart, seed: int, parts: Parts, walked: Any, trace: Path | None) -> Walk:
-    """Walk once, and record it."""
+def _walk(place: Any, chart: Chart, seed: int, parts: Parts, walked: Any, trace: Path | None, seen: list[Any]) -> Walk:
+    """Walk once, and record it; the world walked in is put into `seen`."""
     from ...worlds import place_of
     from .. import walk
     from .tracing import Tracing
@@ -153,6 +158,7 @@ def _walk(place: Any, chart: Chart, seed: int, parts: Parts, walked: Any, trace:
     with progress(f"exploring {chart.name}, rooms", len(chart.places)) as report:
 
         def watch(moment: Moment) -> None:
+            seen[:] = [moment.world]
             entered.add(place_of(moment.info))
             report(len(entered))
             tracing(moment)

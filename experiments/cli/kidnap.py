@@ -25,6 +25,7 @@ def kidnap_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    told: opt.Told = None,
     view: opt.View = None,
     tiles: opt.Tiles = None,
     turned: opt.Turned = False,
@@ -37,7 +38,7 @@ def kidnap_command(
     from .. import Parts, chart_of, check_kidnap, check_outputs, kidnap_many, kidnap_result, workers, write_json
 
     lower: Any = {"view": view, "tiles": tiles, "turned": turned}
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
     parts = Parts.named(preset=preset, policies=policies, look_ahead=look_ahead, pose=pose)
     options: Any = {"agent": parts, "max_steps": max_steps}
     check_kidnap(place)

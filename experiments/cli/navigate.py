@@ -45,6 +45,7 @@ def navigate_command(
     sights: opt.Sights = None,
     format: opt.Format = "text",
     pose: opt.Pose = None,
+    told: opt.Told = None,
     view: opt.View = None,
     tiles: opt.Tiles = None,
     turned: opt.Turned = False,
@@ -73,7 +74,7 @@ def navigate_command(
     if goal is None:
         raise CogmapError(f"navigate: {world} has no goal of its own; give --goal LABEL")
     lower: Any = {"view": view, "tiles": tiles, "turned": turned, "goal": goal}
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, **lower)
+    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
     label, name, many = lab.parse_goal(place, goal), lab.chart_of(place).name, runs or 1
     task: Any = {"weight": weight, "closed": [_room(text) for text in close or ()], "known": not unexplored}
     lab.check_goal(place, label, **task)

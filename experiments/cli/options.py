@@ -64,6 +64,12 @@ Trace = Annotated[
 ]
 
 
+Told = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME", help="What a graph tells of a pose: motions, displacement, bearing or none. The most it can."
+    ),
+]
 View = Annotated[
     str | None, typer.Option(metavar="NAME", help="Of a world of MiniGrid: symbolic (what it is unless given) or rgb.")
 ]
@@ -90,6 +96,7 @@ def world_of(
     tiles: str | None = None,
     turned: bool = False,
     goal: str | None = None,
+    told: str | None = None,
 ) -> Any:
     """The world of these options."""
     from ...model import CogmapError
@@ -106,7 +113,7 @@ def world_of(
     elif view is not None or tiles is not None or turned:
         raise CogmapError(f"--view, --tiles and --turned are for worlds of MiniGrid, such as {MINIGRID}3x3, not {name}")
     else:
-        world = load_world(name, format=format, sights=given, seed=seed)
+        world = load_world(name, format=format, sights=given, seed=seed, pose=told)
     return NoisyWorld(world, **rates) if rates else world
 
 

@@ -19,7 +19,7 @@ Name = Annotated[
     typer.Argument(
         metavar="NAME",
         help="exploration, rooms, growth, cost, distances, identity, localisation, "
-        "goals, donut, tolman, martinet, insight, mice; or all.",
+        "goals, donut, tolman, martinet, insight, mice, buildings; or all.",
         show_default=False,
     ),
 ]
@@ -35,6 +35,9 @@ Agents = Annotated[
 Out = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Folder to write in; study-NAME in this folder unless given.")
 ]
+Maps = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="Of buildings: a folder of graph files; random graphs unless given.")
+]
 LookAhead = Annotated[
     int | None, typer.Option(min=1, help="L: steps that a policy looks ahead; the study's own unless given.")
 ]
@@ -47,6 +50,7 @@ def study_command(
     seed: opt.Seed = 0,
     out: Out = None,
     look_ahead: LookAhead = None,
+    maps: Maps = None,
     jobs: opt.Jobs = 1,
     dask: opt.Dask = None,
 ) -> None:
@@ -54,11 +58,16 @@ def study_command(
 
     exploration, rooms, growth and identity keep every finished run in DIR: the same command goes on from there.
     """
+    from ...model import CogmapError
     from .. import workers
-    from ..studies import EVERYTHING, Options, run_studies, run_study, study_named
+    from ..studies import EVERYTHING, Buildings, Options, run_studies, run_study, study_named
     from .group import INTERRUPTED, fail
 
     study = None if name == EVERYTHING else study_named(name)
+    if maps is not None:
+        if not isinstance(study, Buildings):
+            raise CogmapError(f"--maps is for the study buildings, not {name}; leave it out")
+        study = Buildings(str(maps))
     folder, how = out or Path(f"study-{name}"), Options(runs=runs, seed=seed, look_ahead=look_ahead, counter=counting)
     try:
         with workers(jobs=jobs, dask=dask) as how["executor"]:

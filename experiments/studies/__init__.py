@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .buildings import Buildings
 from .figures import legend_below, panels, plot_bars
 from .intervals import Interval, Share, bootstrap, wilson
 from .running import Options, Outcome, run_studies, run_study
@@ -9,7 +10,7 @@ from .study import EVERYTHING, Findings, Study, failed_seeds, studies, study_nam
 from .tables import Table
 
 __all__ = [
-    "EVERYTHING", "Findings", "Interval", "Options", "Outcome", "Share", "Study", "Table", "bootstrap",
+    "EVERYTHING", "Buildings", "Findings", "Interval", "Options", "Outcome", "Share", "Study", "Table", "bootstrap",
     "failed_seeds", "legend_below", "panels", "plot_bars", "run_studies", "run_study", "studies", "study_named",
     "wilson",
 ]  # fmt: skip

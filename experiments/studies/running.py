@@ -12,6 +12,7 @@ from typing import Any, TypedDict, Unpack
 
 from ...model import make_folder, write_whole
 from .. import Parts, check_outputs
+from .buildings import Buildings
 from .saving import made_with, write_report, write_study
 from .study import EVERYTHING, AnyStudy, studies
 from .tables import Table, Value
@@ -125,9 +126,11 @@ def write_index(folder: Path, outcomes: Sequence[Outcome], seed: int, command: s
 
 def _command(study: AnyStudy | None, runs: int | None, seed: int, look_ahead: int | None) -> str:
     options = {"runs": runs, "seed": seed, "look_ahead": look_ahead}
-    given = {name: value for name, value in options.items() if value is not None}
+    given: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     if study is not None and study.name not in studies():
         return f"run_study({type(study).__name__}(), folder, {', '.join(f'{name}={given[name]}' for name in given)})"
+    if isinstance(study, Buildings) and study.folder is not None:
+        given["maps"] = study.folder
     words = [f"--{name.replace('_', '-')} {value}" for name, value in given.items()]
     return " ".join(["cogmap study", EVERYTHING if study is None else study.name, *words])
 

@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 
 from ..errors import CogmapError
-from .base import Context
+from .base import Context, Floats, Ints
 from .sight import Sight
 from .transition import Transition
 
@@ -30,6 +30,24 @@ class Bearings(Sight):
         """Make it part of a model."""
         super().join(context, transitions)
         self._actions = len(context.motions)
+
+    def likelihood(self, places: Ints, reading: Any) -> Floats:
+        """`[n]` P(o | s); a place never entered shows those of another as often as that happened so far."""
+        told = super().likelihood(places, reading)
+        fresh = ~self.context.visits.visited.values[places]
+        if isinstance(reading, int) and fresh.any():
+            told = np.where(fresh, self._of_new(reading), told)
+        return told
+
+    def log_predictive(self, reading: Any) -> float:
+        """The same of a place that was never imagined."""
+        return float(np.log(self._of_new(reading))) if isinstance(reading, int) else super().log_predictive(reading)
+
+    def _of_new(self, reading: int) -> float:
+        shown, _ = self.candidates(reading)
+        kinds, entered = len(self.labels) - (not len(shown)), len(self.context.visits.order)
+        again = (entered - kinds + 0.5) / (entered + 1.0)
+        return again / max(kinds, 1) if len(shown) else 1.0 - again
 
     def check(self, value: Any) -> Hashable:
         """The bearings as a tuple, -1 for none."""

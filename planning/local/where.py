@@ -7,6 +7,9 @@ import numpy as np
 from .transitions import Floats, Ints
 from .view import MapView
 
+FAR = 1e15
+"""Beyond are no positions."""
+
 
 class Where:
     """The position of every place of one map; costs what has changed.
@@ -25,12 +28,17 @@ class Where:
     def never_entered(self) -> tuple[Ints, Floats]:
         """The places never entered that have a position, and it, `[F, D]`."""
         places = np.flatnonzero(~self._map.visited)
-        where = self.all[places]
+        where = self.of(places)
         known = ~np.isnan(where[:, 0])
         return places[known], where[known]
 
+    def of(self, places: Ints) -> Floats:
+        """`[n, D]` of places never entered; NaN where nobody knows."""
+        found = self._map.pose.imagined(places)
+        return self._all[places] if found is None else np.where(found < FAR, found, np.nan)
+
     @property
-    def all(self) -> Floats:
+    def _all(self) -> Floats:
         """`[S, D]` of every place; NaN where nobody knows."""
         map_, size = self._map, len(self._map.places)
         changed, self._read = map_.changed_places(self._read, *map_.pose.stores, map_.visits)

@@ -110,7 +110,7 @@ class _Search:
 def _back(around: Surroundings, ends: Ints, search: _Search) -> Floats:
     """`[n]` how far it is from each end to what else was never entered, on average, in steps."""
     places, where = around.cache.where.never_entered()
-    mine = around.cache.where.all[ends]
+    mine = around.cache.where.of(ends)
     if not len(places) or np.isnan(mine).any():
         return _back_on_map(around, ends, search)
     if len(places) > SAMPLE:

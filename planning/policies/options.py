@@ -32,8 +32,7 @@ class Options(PolicyGenerator):
         weight: lambda, what a step of the way back counts beside one of the way there; below 1.
         cost: of a step, in nats.
         kept: of so many of the best options the plan keeps record.
-        near: whether options also decide where something new is within the look-ahead; by default where positions are
-            measured.
+        near: whether options also decide where something new is within the look-ahead.
 
     Raises:
         CogmapError: a number is out of range.
@@ -43,7 +42,7 @@ class Options(PolicyGenerator):
     weight: float = 0.5
     cost: float = 1.0
     kept: int = 8
-    near: bool | None = None
+    near: bool = True
 
     def __post_init__(self) -> None:
         if not is_number(self.weight, 0.0, 0.95):
@@ -67,8 +66,7 @@ class Options(PolicyGenerator):
         """The best options from where the agent is; None where there are none, or they are not to decide here."""
         if around.preferences.sights or around.preferences.places or around.structure is not None:
             return None
-        near = around.map.pose.settles if self.near is None else self.near
-        least = 0 if near else around.look_ahead
+        least = 0 if self.near else around.look_ahead
         return frontier_of(around, weight=self.weight, most=self.kept, beyond=least)
 
     def make(self, model: LocalModel) -> Policies:

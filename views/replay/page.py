@@ -89,13 +89,13 @@ def _content(recording: Recording) -> dict[str, Any]:
     return content | {"looks": [(str(label), hexed(colour), ink[ink_on(colour)]) for label, colour in colours]}
 
 
-def _layout(recording: Recording) -> list[Cell] | None:
-    """Where the places of a map without positions are drawn, by number."""
+def _layout(recording: Recording) -> list[Cell | None] | None:
+    """Where the places of a map without positions, or with those that were measured, are drawn, by number."""
     largest = MapPicture.recorded(recording.data)
     for picture in recording.maps():
-        if picture.located:
+        if picture.located and not picture.measured:
             return None
         if len(picture.places) >= len(largest.places):
             largest = replace(picture, places=[*picture.places], rows={**picture.rows})
     cells = largest.cells
-    return [cells[place] for place in sorted(cells)]
+    return [cells.get(place) for place in range(len(largest.places))]

@@ -70,6 +70,10 @@ class Pose(ModelFactor):
         """The position of a place; None where it has none."""
         return None
 
+    def imagined(self, places: Ints) -> Floats | None:
+        """`[n, D]` where places never entered are imagined to be; None for a pose whose positions stay as they are."""
+        return None
+
     def place_at(self, position: Hashable) -> int | None:
         """The place at a position; None where there is none."""
         return None

@@ -30,11 +30,11 @@ NEAR = 0.1
 FAR = 2.0
 """The same of a place whose ways lead as those of no other do, in a world where that tells places apart."""
 
-LONG = 2.0
+LONG = 2.5
 """Standard deviations of the logarithm of lengths above the mean up to which a way that was not walked may be long."""
 
-LEAST_SPREAD = 0.2
-"""Standard deviation of the logarithm of lengths, at least."""
+SPREAD, FEW = 0.5, 4
+"""Standard deviation of the logarithm of lengths before any was measured, and how many measurements it counts for."""
 
 ENOUGH = 12
 """Places that are to have been entered before bearings are thought to tell them apart."""
@@ -53,7 +53,7 @@ class Plane(NoPose):
     Which place is which follows from positions and bearings, so that no hypotheses are weighed.
 
     Attributes:
-        where: `[S, 3]` positions; `UNKNOWN` where nobody knows.
+        where: `[S, 3]` positions; of places never entered that of `source`; `UNKNOWN` where nobody knows.
         bearings: `[S, K]` degrees of each way as it was seen; -1 where none was.
         source: `[S, 2]` the place and the action that a place was imagined behind; -1 of none.
         been: `[S, 4]` the last steps at which the agent was there; -1 of none.
@@ -112,8 +112,20 @@ class Plane(NoPose):
 
     def position(self, place: int) -> Any:
         """Where a place is, or is imagined to be; None where nobody knows."""
-        at = tuple(self.where.values[place].tolist())
-        return None if UNKNOWN in at else at
+        known = self.context.visits.visited.values[place]
+        at = self.where.values[place] if known else self.imagined(np.array([place]))[0]
+        return tuple(at.tolist()) if at[0] < UNKNOWN else None
+
+    def imagined(self, places: Ints) -> Floats:
+        """`[n, 3]` in the direction of the way that they were imagined behind, as far as ways are long on average."""
+        source, action = self.source.values[places].T
+        bearing = self.bearings.values[source, action]
+        found = self.where.values[places].copy()
+        ahead = (source >= 0) & (bearing >= 0.0) & (found[:, 0] < UNKNOWN)
+        angle = np.deg2rad(bearing[ahead])
+        along = self.length * np.stack([np.sin(angle), np.cos(angle), np.zeros(len(angle))], axis=1)
+        found[ahead] = self.where.values[source[ahead]] + along
+        return found
 
     def steps_in(self, place: int) -> tuple[int, ...]:
         """The last steps at which the agent was there."""
@@ -125,11 +137,8 @@ class Plane(NoPose):
         """A place was imagined behind a way: it lies in the direction of its bearing."""
         self.source.set((place, 0), source)
         self.source.set((place, 1), action)
-        bearing = float(self.bearings.values[source, action])
-        if bearing >= 0.0 and self.position(source) is not None:
-            angle = np.deg2rad(bearing)
-            ahead = self.length * np.array([np.sin(angle), np.cos(angle), 0.0])
-            self._put(place, self.where.values[source] + ahead)
+        if self.position(source) is not None:
+            self._put(place, self.where.values[source])
 
     def arrive(self, model: Growing, place: int, percept: Percept, *, step: int) -> None:
         """Before inference: a way was walked, and measured; have it lead to the place that lies there."""
@@ -141,6 +150,10 @@ class Plane(NoPose):
             return
         moved = np.array([*measured, 0.0, 0.0])[:AXES]
         at, target = self.where.values[place] + moved, ways.beyond(place, action)
+        entered = model.visits.visited.values
+        apart = np.inf if target is None else np.linalg.norm(self.where.values[target] - at)
+        if target is not None and entered[target] and apart <= NEAR * self.length:
+            return  # as was thought; if it looks otherwise, the agent was put elsewhere
         there = self._lies_at(model, at, percept, left=place)
         if there is None and (target is None or model.visits.visited.values[target]):
             there = model.new_place(step=step)
@@ -185,7 +198,7 @@ class Plane(NoPose):
         """How long that is: standard deviations of the logarithm of lengths above their mean."""
         many, logs, squares, _, _ = self.lengths.values.tolist()
         mean = logs / max(many, 1.0)
-        spread = max(np.sqrt(max(squares / max(many, 1.0) - mean * mean, 0.0)), LEAST_SPREAD)
+        spread = np.sqrt((max(squares - many * mean * mean, 0.0) + FEW * SPREAD**2) / (many + FEW))
         return float((np.log(max(length, 1e-9)) - mean) / spread)
 
     # -- ways between places -------------------------------------------------------------------------------
