@@ -4,8 +4,6 @@ import re
 import tomllib
 from pathlib import Path
 
-from setuptools import setup
-
 ROOT = Path(__file__).parent
 HOME = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["urls"]["Repository"]
 
@@ -17,5 +15,7 @@ def index_page(markdown: str, home: str) -> str:
 
 
 if __name__ == "__main__":
+    from setuptools import setup  # here, since a test reads this file where there is none
+
     page = index_page((ROOT / "README.md").read_text("utf-8"), HOME)
     setup(long_description=page, long_description_content_type="text/markdown")

@@ -39,6 +39,8 @@ def fits(value: Any, annotation: Any) -> bool:
     if annotation is None or annotation is type(None):
         return value is None
     origin, parts = get_origin(annotation), get_args(annotation)
+    if hasattr(origin, "__value__"):  # a name for a type, as numpy's NDArray is from its version 2.5 on
+        return fits(value, origin.__value__[parts])
     if origin in (Union, types.UnionType):
         return any(fits(value, part) for part in parts)
     if origin is Literal:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .loading import BODILY, load_embodied
+from .loading import BODILY, COLOURS, load_embodied
 from .protocol import OUTCOMES, Body, Percept
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BODILY",
+    "COLOURS",
     "GOAL",
     "OUTCOMES",
     "Body",

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..worlds import minigrid as mg
 from .errand import Errand
@@ -15,7 +16,7 @@ from .protocol import Percept
 from .room_map import CENTRE, Pose, RoomMap, around
 from .routes import distances, route
 from .vocabulary import vocabulary
-from .whereabouts import FORWARD, LEFT, NOTHING, PICKUP, RIGHT, SURE, TOGGLE, Whereabouts, moved
+from .whereabouts import DROP, FORWARD, LEFT, NOTHING, PICKUP, RIGHT, SURE, TOGGLE, Whereabouts, moved
 
 UP = 3
 """The way a body faces where it wakes up, whatever that is in the world."""
@@ -81,6 +82,7 @@ class MiniGridBody:
         """
         self._errand = errand
         self._known.clear()
+        self._known.key = -1
         self._sizes = Sizes()
         self._where = Whereabouts((CENTRE, CENTRE, UP))
         self.steps, self.ended, self.reward = 0, False, 0.0
@@ -177,7 +179,7 @@ class MiniGridBody:
         for _ in range(_LOOKS):
             now = self._outlook()
             targets = frozenset[mg.Tile]().union(*(now.unknown if self._survey else map(now.needed.__getitem__, ways)))
-            if self._wanted() or not targets or self.ended or self._confused:
+            if self._wanted() is not None or not targets or self.ended or self._confused:
                 return
             if plan and targets == before and self.pose == meant:
                 meant = moved(self.pose, plan[0], self._known)
@@ -256,36 +258,63 @@ class MiniGridBody:
         return "unsure"
 
     def _wanted(self) -> list[int] | None:
-        """The way to what the errand is about, if that was seen and can be reached."""
+        """The actions to what the errand is about, the last one included, if that was seen and can be reached.
+
+        Where a locked door stands in the way and its key lies in reach, that comes first.
+        """
         if self._errand is None or self.ended:
             return None
-        tiles = self._known.tile
-        found = [(x, y) for y, x in np.argwhere((tiles >= 0) & self._errand.wanted[tiles]).tolist()]
-        if not found:
+        words, known, errand = vocabulary(), self._known, self._errand
+        final = {"pickup": [PICKUP], "toggle": [TOGGLE], None: [] if errand.upon else [NOTHING]}[errand.action]
+        plan = self._towards(errand.wanted, upon=errand.upon)
+        if plan is not None:
+            carries = known.key >= 0 and errand.action == "pickup"
+            return self._put_down() if carries and TOGGLE not in plan else plan + final
+        if known.key >= 0:
             return None
+        barred = {int(colour) for colour in words.locked[known.tile[known.masks().known]] if colour >= 0}
+        for colour in sorted(barred):
+            plan = self._towards(words.key[:-1] == colour, upon=False)
+            if plan is not None:
+                return [*plan, PICKUP]
+        return None
+
+    def _towards(self, wanted: NDArray[np.bool_], *, upon: bool) -> list[int] | None:
+        """The way to the nearest tile of some kinds: upon it, or before it and looking at it; None if there is none."""
+        tiles, masks = self._known.tile, self._known.masks()
+        found = [(x, y) for y, x in np.argwhere((tiles >= 0) & wanted[tiles]).tolist()]
         goals: list[Any] = [
-            tile if self._errand.upon else (tile[0] - dx, tile[1] - dy, heading)
+            tile if upon else (tile[0] - dx, tile[1] - dy, heading)
             for tile in found
             for heading, (dx, dy) in enumerate(mg.AHEAD)
         ]
-        masks = self._known.masks()
-        within = {(x, y) for y, x in np.argwhere(masks.free | masks.door).tolist()}
-        if not self._errand.upon:
-            within -= set(found)
-        return route(self.pose, self._known, goals, within=within)
+        within = {(x, y) for y, x in np.argwhere(masks.free | masks.shut).tolist()}
+        return route(self.pose, self._known, goals, within=within if upon else within - set(found)) if goals else None
+
+    def _put_down(self) -> list[int]:
+        """Put down what is carried, where there is room for it."""
+        ahead = self._in_front()
+        return [DROP] if self._known.free(ahead) and not self._known.narrow(ahead) else [LEFT]
+
+    def _in_front(self) -> mg.Tile:
+        x, y, heading = self.pose
+        return x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]
 
     def _run_errand(self) -> None:
         """Go where it is wanted, and do what is to be done there."""
         for _ in range(_TRIES):
             plan = self._wanted()
-            if plan is None or self.ended:
+            if not plan or self.ended or self._confused:
                 return
-            if plan:
-                self._act(plan[0])
-                continue
-            assert self._errand is not None
-            self._act({"pickup": PICKUP, "toggle": TOGGLE, None: NOTHING}[self._errand.action])
-            self._errand = None if self._errand.action != "toggle" else self._errand
+            ahead = self._in_front()
+            key = int(vocabulary().key[self._known.tile[ahead[1], ahead[0]]])
+            self._act(plan[0])
+            if plan[0] == PICKUP and key >= 0 and self._known.free(ahead):
+                self._known.key = key
+            elif plan[0] == DROP:
+                self._known.key = -1
+            elif plan == [NOTHING] and not self.ended:  # it is there, and nobody says so
+                self._errand = None
 
     def _into_the_unknown(self) -> int:
         """Turn to a tile of which nothing is known, and go there: who is not sure where it is has learned nothing."""

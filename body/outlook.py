@@ -61,7 +61,7 @@ def outlook(known: RoomMap, seed: mg.Tile, sizes: Sizes, given_up: Collection[mg
     masks, room = known.masks(), known.room(seed)
     exits: list[tuple[mg.Tile, ...]] = []
     unknown: list[frozenset[mg.Tile]] = []
-    passable = masks.narrow & (masks.free | masks.door)
+    passable = masks.narrow & (masks.free | masks.shut)
     for heading in range(4):
         beside = shifted(room, (heading + 2) % 4) & ~room
         exits.append(tuple(sorted(_tiles(beside & passable))))

@@ -29,7 +29,7 @@ _OFFSETS = np.array([mg.view_offsets(heading).reshape(-1, 2) for heading in rang
 
 @dataclass(frozen=True, slots=True)
 class Masks:
-    """`[y, x]` truth values: can one stand there, is it a wall, a door, known at all, and does it join rooms.
+    """`[y, x]` truth values: can one stand there; is it a wall, a door, one to be opened; known; does it join rooms.
 
     What joins rooms is a door, or a gap between walls on opposite sides. A gap of which one side was not seen counts
     where the wall on the other side ends beside it.
@@ -38,6 +38,7 @@ class Masks:
     free: Mask
     wall: Mask
     door: Mask
+    shut: Mask
     known: Mask
     narrow: Mask
 
@@ -47,6 +48,7 @@ class RoomMap:
 
     Attributes:
         tile: `[y, x]` the most likely tile, `UNKNOWN` where none was seen.
+        key: colour of the key that is carried; -1 of none. Locked doors of that colour can be opened.
     """
 
     def __init__(self) -> None:
@@ -55,6 +57,16 @@ class RoomMap:
         self.tile: NDArray[np.int64] = np.full((SIDE, SIDE), UNKNOWN, dtype=np.int64)
         self._stood: set[mg.Tile] = set()
         self._masks: Masks | None = None
+        self._key = -1
+
+    @property
+    def key(self) -> int:
+        """See the class."""
+        return self._key
+
+    @key.setter
+    def key(self, colour: int) -> None:
+        self._key, self._masks = colour, None
 
     def clear(self) -> None:
         """Forget everything."""
@@ -128,7 +140,7 @@ class RoomMap:
 
     def shut(self, tile: mg.Tile) -> bool:
         """Whether a door is there that can be opened."""
-        return bool(self._words.shut[self.tile[tile[1], tile[0]]])
+        return bool(self.masks().shut[tile[1], tile[0]])
 
     def floor(self, tile: mg.Tile) -> int:
         """The number of the coloured floor there; -1 of anything else."""
@@ -146,7 +158,8 @@ class RoomMap:
             known = tile != UNKNOWN
             for x, y in self._stood:
                 free[y, x] = known[y, x] = True
-            self._masks = Masks(free, wall, door, known, _narrow(free, wall, door, known))
+            shut = words.shut[tile] | ((words.locked[tile] == self._key) & (self._key >= 0))
+            self._masks = Masks(free, wall, door, shut, known, _narrow(free, wall, door, known))
         return self._masks
 
     def room(self, tile: mg.Tile) -> NDArray[np.bool_]:

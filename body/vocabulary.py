@@ -23,6 +23,7 @@ class Vocabulary:
         free: `[K + 1]` whether one can step there; the last row is what is unknown.
         wall, door, thing: `[K + 1]` the same of walls, of doors (open or not), and of things that lie in the way.
         shut: `[K + 1]` of closed doors that are not locked.
+        locked, key: `[K + 1]` colour of the locked door, or of the key, that it is; -1 of others.
         floor: `[K + 1]` number of the coloured floor, -1 of others.
     """
 
@@ -32,6 +33,8 @@ class Vocabulary:
     door: NDArray[np.bool_]
     thing: NDArray[np.bool_]
     shut: NDArray[np.bool_]
+    locked: NDArray[np.int64]
+    key: NDArray[np.int64]
     floor: NDArray[np.int64]
 
     def looks(self, pixels: int) -> NDArray[np.float64]:
@@ -54,7 +57,9 @@ def vocabulary() -> Vocabulary:
     door = kind == DOOR
     free = np.isin(kind, (EMPTY, FLOOR, GOAL)) | (door & (state == OPENED))
     thing = np.isin(kind, (KEY, BALL, BOX))
-    return Vocabulary(known[:-1], free, kind == WALL, door, thing, door & (state == CLOSED), floor)
+    locked = np.where(door & (state == LOCKED), known[:, 1], -1)
+    key = np.where(kind == KEY, known[:, 1], -1)
+    return Vocabulary(known[:-1], free, kind == WALL, door, thing, door & (state == CLOSED), locked, key, floor)
 
 
 @lru_cache(maxsize=8)

@@ -44,7 +44,7 @@ class Whereabouts:
     def update(self, action: int, view: View, known: RoomMap) -> None:
         """Take in what is seen after an action; `NOTHING` where none was taken. What was toggled is forgotten."""
         poses, prior, meant = self._ahead(action, known)
-        if action == TOGGLE:  # it stood in the way until then
+        if action in (PICKUP, DROP, TOGGLE):  # it stood in the way until then
             x, y, heading = self.pose
             known.unlearn((x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]))
         log_p = np.log(prior) + known.log_likelihood(poses, view)

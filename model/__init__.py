@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .changes import STEPS, Branch, Change, Changes, Entry, Store
+from .changes import STEPS, Change, Changes, Entry, Store
 from .cognitive_map import CognitiveMap
 from .column import Column
 from .dirichlet import EMPTY, SparseDirichlet
@@ -109,7 +109,6 @@ __all__ = [
     "AllEvidence",
     "Bearings",
     "Before",
-    "Branch",
     "Change",
     "Changes",
     "CogmapError",

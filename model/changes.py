@@ -1,10 +1,9 @@
-"""The append-only log of everything that is written into a map: undone, branched, and read by cursor."""
+"""The append-only log of everything that is written into a map: undone, and read by cursor."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 from numpy.typing import NDArray
@@ -71,42 +70,16 @@ class Change(NamedTuple):
 Entry = Change | GrowthEvent
 
 
-@dataclass(eq=False, slots=True)
-class Branch:
-    """What was written since a fork.
-
-    Attributes:
-        parent: the branch that it was forked from; None for the trunk.
-        changes: its own, up to when it was last left; the trunk keeps none.
-        forked: whether others build on it.
-    """
-
-    parent: Branch | None = None
-    changes: tuple[Change, ...] = ()
-    forked: bool = False
-
-    @property
-    def ancestors(self) -> list[Branch]:
-        """From the trunk to this branch itself."""
-        return [*(self.parent.ancestors if self.parent else ()), self]
-
-
 class Changes:
-    """The log of one map. What is undone is logged too, so that nothing that was read ever becomes untrue.
-
-    Attributes:
-        branch: the one that is written to.
-    """
+    """The log of one map. What is undone is logged too, so that nothing that was read ever becomes untrue."""
 
     def __init__(self) -> None:
-        self.branch = Branch()
         self._entries: list[Entry] = []
         self._dropped = 0
         self._room = 2 * KEPT
         self._marks: deque[int] = deque(maxlen=STEPS)
         self._undone: list[tuple[int, int]] = []  # spans that come to nothing
         self._holding = False
-        self._begun = 0  # where what `branch` has written since it was entered begins
 
     def __len__(self) -> int:
         """Entries so far, those that were dropped included."""
@@ -137,13 +110,11 @@ class Changes:
             The changes that were undone, in the order in which they were made.
 
         Raises:
-            CogmapError: it is no mark, older than the last `STEPS` ones, or older than the branch.
+            CogmapError: it is no mark, or older than the last `STEPS` ones.
         """
         if mark not in self._marks:
             oldest = f"the oldest is {self._marks[0]}" if self._marks else "there are none"
             raise CogmapError(f"changes: {mark} is no mark that is kept; {oldest}, call mark() sooner")
-        if self.branch.parent and mark < self._begun:
-            raise CogmapError(f"changes: mark {mark} is older than this branch; switch to its parent first")
         while self._marks[-1] > mark:
             self._marks.pop()
         changes = self._take_back(self._written(mark))
@@ -166,11 +137,6 @@ class Changes:
             store.put(where, old)
         return list(changes)
 
-    def _repeat(self, changes: Sequence[Change]) -> None:
-        for change in changes:
-            self.append(change)
-            change.store.put(change.where, change.new)
-
     def undoable(self) -> tuple[int, list[Entry], list[int], list[tuple[int, int]]]:
         """Where the oldest mark is, the entries since then, the marks, and the spans of entries that were undone."""
         first = self._marks[0] if self._marks else len(self)
@@ -183,14 +149,13 @@ class Changes:
         """Take over what `undoable` gave of another log."""
         self._entries, self._marks, self._undone = list(entries), deque(marks, maxlen=STEPS), list(undone)
         self._dropped = first
-        self._begun = len(self)
 
     # -- holding -------------------------------------------------------------------------------------------
 
     def hold(self) -> tuple[Any, ...]:
         """Drop nothing until `release`; returns what `held` and `cut` take."""
         self._holding = True
-        return len(self._entries), tuple(self._marks), list(self._undone), self.branch, self._begun
+        return len(self._entries), tuple(self._marks), list(self._undone)
 
     def held(self, point: tuple[Any, ...]) -> Sequence[Entry]:
         """The entries since then."""
@@ -198,7 +163,7 @@ class Changes:
 
     def cut(self, point: tuple[Any, ...]) -> None:
         """Be as then: what was read since is not true any more."""
-        count, marks, undone, self.branch, self._begun = point
+        count, marks, undone = point
         del self._entries[count:]
         self._marks, self._undone, self._holding = deque(marks, maxlen=STEPS), list(undone), False
 
@@ -208,50 +173,9 @@ class Changes:
         if len(self._entries) > self._room:
             self._trim()
 
-    # -- branches ------------------------------------------------------------------------------------------
-
-    def fork(self) -> Branch:
-        """Go on in a new branch of what there is; `switch` leads back to the old one, which must stay as it is."""
-        parent = self._leave()
-        parent.forked = True
-        self.branch, self._begun = Branch(parent), len(self)
-        return self.branch
-
-    def switch(self, branch: Branch) -> None:
-        """Make everything as `branch` has it; costs the changes since the two were one.
-
-        Raises:
-            CogmapError: it belongs to another log, or was written to after it had been forked.
-        """
-        here, there = self._leave().ancestors, branch.ancestors
-        if here[0] is not there[0]:
-            raise CogmapError("changes: that branch is not of this log, or was cut off by settle()")
-        common = sum(a is b for a, b in zip(here, there, strict=False))
-        for left in reversed(here[common:]):
-            self._take_back(left.changes)
-        for entered in there[common:]:
-            self._repeat(entered.changes)
-        self.branch, self._begun = branch, len(self)
-
-    def settle(self) -> None:
-        """Make the present branch the trunk: nothing leads back to the others, and their memory is free."""
-        self.branch, self._begun = Branch(), len(self)
-
-    def _leave(self) -> Branch:
-        branch = self.branch
-        if branch.parent or branch.forked:
-            written = self._written(self._begun)
-            if written and branch.forked:
-                raise CogmapError("changes: a branch that was forked was written to; fork it again and write there")
-            branch.changes += tuple(written)
-        self._begun = len(self)
-        return branch
-
     def _trim(self) -> None:
-        """Drop what neither a mark nor the present branch needs, but for the last `KEPT` entries."""
+        """Drop what no mark needs, but for the last `KEPT` entries."""
         needed = [len(self) - KEPT, *([self._marks[0]] if self._marks else [])]
-        if self.branch.parent or self.branch.forked:
-            needed.append(self._begun)
         drop = max(min(needed) - self._dropped, 0)
         entries, dropped = self._entries[drop:], self._dropped + drop
         self._entries, self._dropped = entries, dropped  # in one go

@@ -45,6 +45,15 @@ def test_long_walks_say_what_has_grown(tmp_path: Path) -> None:
     assert plain["ratio"] > 0.0
 
 
+def test_percepts_of_every_kind_leave_the_map_right(tmp_path: Path) -> None:
+    rows = ("features", "two", "hand")
+    printed, result = measured("percepts.py", tmp_path, *rows, "--seeds", "0")
+    assert {name: [row["right"] for row in found] for name, found in result["rows"].items()} == {
+        name: [True] for name in rows
+    }
+    assert "features         right 1 of 1" in printed
+
+
 def test_detours_are_walked_around_shut_doors(tmp_path: Path) -> None:
     asked = ("--worlds", "donut", "t_maze", "random", "--look-ahead", "2", "6", "--ways", "2")
     printed, result = measured("detours.py", tmp_path, *asked)

@@ -8,7 +8,7 @@ from pathlib import Path
 import gymnasium as gym
 import numpy as np
 import pytest
-from cogmap.body import PixelView, RegisteredWorld, errand_of
+from cogmap.body import PixelView, RegisteredWorld, embodied, errand_of
 from cogmap.experiments import ids_result, is_registered, run_id, run_ids
 from cogmap.model import CogmapError
 from cogmap.worlds import WorldError
@@ -28,6 +28,29 @@ def test_pixels_and_symbols_lead_to_the_same_steps(name: str) -> None:
     runs = [run_id(name, 2, errand=True, view=view) for view in ("symbolic", "rgb")]
     assert runs[0] == runs[1]
     assert runs[0].reached
+
+
+@pytest.mark.parametrize("name", ["MiniGrid-DoorKey-8x8-v0", "MiniGrid-UnlockPickup-v0"])
+def test_keys_open_what_stands_in_the_way(name: str) -> None:
+    runs = run_ids(name, runs=2, errand=True)
+    assert [run.reached for run in runs] == [True, True]
+    assert max(run.low_level_steps for run in runs) < 60
+
+
+def test_a_locked_door_without_its_key_is_shut() -> None:
+    world, outcomes = embodied("3x3", locked=4), set[str]()
+    for seed in range(6):
+        world.reset(seed=seed)
+        locked = {pair for passage in world.rooms.plan.passages if passage.locked for pair in (passage.rooms,)}
+        way, room = next(
+            (way, room) for way, room in world.maze.exits(world.place).items() if room != world.place and room
+        )
+        pair = (world.place, room) if world.place < room else (room, world.place)
+        seen, *_, info = world.step(world.motions.names.index(way))
+        assert (info["position"] == room) == (pair not in locked)
+        assert seen["outcome"] == ("blocked" if pair in locked else "arrived")
+        outcomes.add(seen["outcome"])
+    assert outcomes == {"arrived", "blocked"}
 
 
 def test_missions_are_read() -> None:

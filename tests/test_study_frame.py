@@ -32,6 +32,7 @@ NAMES = [
     "localisation",
     "martinet",
     "mice",
+    "minigrid",
     "rooms",
     "tolman",
 ]

@@ -51,7 +51,7 @@ def _wall(top: int, left: int, side: int) -> str:
     ends = ((0, 0, CELL, 0), (0, CELL, CELL, CELL), (0, 0, 0, CELL), (CELL, 0, CELL, CELL))[side]
     x1, y1, x2, y2 = ends
     place = f'x1="{left + x1}" y1="{top + y1}" x2="{left + x2}" y2="{top + y2}"'
-    return f'<line {place} stroke="#222" stroke-width="4" stroke-linecap="round"/>'
+    return f'<line {place} stroke="#6b6b6b" stroke-width="4" stroke-linecap="round"/>'
 
 
 def _safe(text: str) -> str:

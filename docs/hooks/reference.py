@@ -116,5 +116,6 @@ def _entry(name: str, level: int) -> list[str]:
 
 def at_home(name: str) -> str:
     """Where a function really is, if that is a module of the same name: mkdocstrings would take it for the module."""
-    home, last = getattr(pydoc.locate(name), "__module__", ""), name.rpartition(".")[2]
+    package, _, last = name.rpartition(".")
+    home = getattr(getattr(pydoc.locate(package), last, None), "__module__", "")
     return f"{home}.{last}" if home.endswith(f".{last}") else name

@@ -52,7 +52,7 @@ def low_steps_between(
     raise ValueError("no way leads to the goal")
 
 
-def covering_low_steps(plan: Floorplan, pose: Pose, *, limit: int = 400_000) -> int | None:
+def covering_low_steps(plan: Floorplan, pose: Pose, *, limit: int = 60_000) -> int | None:
     """Steps of the shortest walk that enters every room, all doors closed at first; None after `limit` states.
 
     A* over (the leg last gone, rooms entered, doors opened). Between legs the shortest way over the floor is taken;
