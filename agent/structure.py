@@ -27,8 +27,6 @@ Door = frozenset[tuple[int, int]]
 class OpenQuestion:
     """The hypotheses that are worth telling apart; places go by the numbers of each.
 
-    Of those whose maps look the same (they differ in poses, if in anything) the most probable stands for all.
-
     Args:
         hypotheses: all of them.
         ways: of actions, as hypotheses number them.
@@ -42,7 +40,7 @@ class OpenQuestion:
     def __init__(
         self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int], *, doors_of: Hypothesis | None = None
     ) -> None:
-        kept = [(weight, h, Door()) for weight, h in _apart(hypotheses)]
+        kept = [(exp(h.weight), h, Door()) for h in hypotheses if exp(h.weight) >= LEAST]
         if doors_of is not None:
             doubtful, weight = nlargest(DOORS, _doubtful(doors_of), key=lambda found: found[0]), exp(doors_of.weight)
             kept += [(weight * p / (1.0 - p), doors_of, door) for p, door in doubtful]
@@ -122,13 +120,3 @@ def _sides(h: Hypothesis, number: int, way: int) -> Door:
 def _number(place: Hashable) -> int:
     assert isinstance(place, int)
     return place
-
-
-def _apart(hypotheses: Sequence[Hypothesis]) -> list[tuple[float, Hypothesis]]:
-    """Those worth a way whose maps look different, the most probable of each kind with the probability of its kind."""
-    kinds: dict[tuple[int, int], tuple[float, Hypothesis]] = {}
-    for h in hypotheses:
-        if (p := exp(h.weight)) >= LEAST:
-            before, first = kinds.get((h.digest, h.here), (0.0, h))
-            kinds[h.digest, h.here] = before + p, first
-    return list(kinds.values())

@@ -55,7 +55,7 @@ def walked(name: str = "4x4", steps: int = 30, **options: Any) -> tuple[Any, Any
         ("torus_4x4_alias", 100, 16),
         ("torus_5x5", 60, 25),
         ("portal_4x4", 80, 16),
-        ("one_way_ring", 12, 6),
+        ("one_way_ring", 20, 6),
     ],
 )
 def test_as_many_places_as_rooms(name: str, steps: int, rooms: int) -> None:
