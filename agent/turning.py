@@ -104,8 +104,10 @@ class TurningAgent(Agent):
         return fits
 
     def _surprised(self, fits: NDArray[np.float64]) -> bool:
-        """Whether the place where it should be is known, and something else fits far better."""
+        """Whether it was sure of where it is, the place where it should be is known, and something else fits better."""
         belief: Belief = self.belief
+        if belief.certainty < self.settings.certainty:
+            return False
         action = int(self._turns[self.turn][self._done])
         ahead = self._ahead(np.array([belief.place]))[0, action]
         at = np.flatnonzero(self.map.visited_places == ahead)

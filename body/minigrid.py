@@ -52,6 +52,8 @@ class MiniGridBody:
     def __init__(self, limbs: Limbs, *, glance: int = 0, survey: bool = False) -> None:
         self._limbs, self._glance, self._survey = limbs, glance, survey
         self._errand: Errand | None = None
+        self._full = False
+        self._barred: set[mg.Tile] = set()
         self._eyes, self._known, self._sizes = Eyes(), RoomMap(), Sizes()
         self._where = Whereabouts((CENTRE, CENTRE, UP))
         self._seed: mg.Tile = (CENTRE, CENTRE)
@@ -80,7 +82,7 @@ class MiniGridBody:
 
         With an errand it looks for that wherever it comes, and runs it as soon as it sees what is wanted.
         """
-        self._errand = errand
+        self._errand, self._full = errand, False
         self._known.clear()
         self._known.key = -1
         self._sizes = Sizes()
@@ -150,7 +152,7 @@ class MiniGridBody:
         if now.whole:
             self._sizes.learn(now.room)
         ways: dict[int, bool | None] = {
-            way: True if now.exits[way] else None if now.needed[way] else False for way in range(4)
+            way: True if set(now.exits[way]) - self._barred else None if now.needed[way] else False for way in range(4)
         }
         return Percept(self._sight(now), ways, outcome, self.steps - begin)
 
@@ -223,6 +225,7 @@ class MiniGridBody:
         """Nothing is known of where it is; it takes itself to face where it faced."""
         self._known.clear()
         self._given_up.clear()
+        self._barred.clear()
         self._seed, self._unsure = (CENTRE, CENTRE), 0
         self._where.set((CENTRE, CENTRE, self.pose[2]))
         self._known.add(self.pose, self._eyes.look(observation["image"]))
@@ -253,7 +256,8 @@ class MiniGridBody:
             elif plan is not None:
                 left |= exits
                 exits = set()
-            else:
+            elif not self._clear(beyond | exits, room):
+                self._barred |= exits
                 return "blocked"
         return "unsure"
 
@@ -268,9 +272,9 @@ class MiniGridBody:
         final = {"pickup": [PICKUP], "toggle": [TOGGLE], None: [] if errand.upon else [NOTHING]}[errand.action]
         plan = self._towards(errand.wanted, upon=errand.upon)
         if plan is not None:
-            carries = known.key >= 0 and errand.action == "pickup"
+            carries = self._full and errand.action == "pickup"
             return self._put_down() if carries and TOGGLE not in plan else plan + final
-        if known.key >= 0:
+        if self._full:
             return None
         barred = {int(colour) for colour in words.locked[known.tile[known.masks().known]] if colour >= 0}
         for colour in sorted(barred):
@@ -306,15 +310,33 @@ class MiniGridBody:
             plan = self._wanted()
             if not plan or self.ended or self._confused:
                 return
-            ahead = self._in_front()
-            key = int(vocabulary().key[self._known.tile[ahead[1], ahead[0]]])
-            self._act(plan[0])
-            if plan[0] == PICKUP and key >= 0 and self._known.free(ahead):
-                self._known.key = key
-            elif plan[0] == DROP:
-                self._known.key = -1
-            elif plan == [NOTHING] and not self.ended:  # it is there, and nobody says so
+            self._handle(plan[0])
+            if plan == [NOTHING] and not self.ended:  # it is there, and nobody says so
                 self._errand = None
+
+    def _clear(self, beyond: set[mg.Tile], room: frozenset[mg.Tile]) -> bool:
+        """Take up a thing that lies in a passage, if there is an errand to be run and the hands are free."""
+        words, tiles = vocabulary(), self._known.tile
+        if self._errand is None or self._full:
+            return False
+        beside = {other for tile in beyond for _, other in around(tile)} - room
+        things = [(x, y) for x, y in beside if words.thing[tiles[y, x]]]
+        goals = [(x - dx, y - dy, heading) for x, y in things for heading, (dx, dy) in enumerate(mg.AHEAD)]
+        plan = route(self.pose, self._known, goals, within=(room | beyond) - set(things)) if goals else None
+        if plan is None:
+            return False
+        self._handle(plan[0] if plan else PICKUP)
+        return True
+
+    def _handle(self, action: int) -> None:
+        """Act, and note what is carried then."""
+        ahead = self._in_front()
+        key = int(vocabulary().key[self._known.tile[ahead[1], ahead[0]]])
+        self._act(action)
+        if action == PICKUP and self._known.free(ahead):
+            self._full, self._known.key = True, key
+        elif action == DROP:
+            self._full, self._known.key = False, -1
 
     def _into_the_unknown(self) -> int:
         """Turn to a tile of which nothing is known, and go there: who is not sure where it is has learned nothing."""
@@ -371,6 +393,7 @@ class MiniGridBody:
         x, y, heading = self.pose
         self._seed = self._known.recentre((x, y), keep)
         self._given_up.clear()
+        self._barred.clear()
         self._where.set((*self._seed, heading))
         if self._glance:
             now = self._outlook()

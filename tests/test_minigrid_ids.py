@@ -121,3 +121,7 @@ def test_bad_input_of_functions() -> None:
         run_id("MiniGrid-FourRooms-v0", -1, errand=True)
     with pytest.raises(WorldError, match="is registered"):
         RegisteredWorld("NoSuch-v3")
+
+
+def test_what_lies_in_a_doorway_is_taken_up() -> None:
+    assert run_id("BabyAI-GoTo-v0", 36, errand=True).reached  # a key behind the door that leads on

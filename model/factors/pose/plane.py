@@ -214,13 +214,14 @@ class Plane(NoPose):
         if not len(others):
             return
         found = between(here[place], self.bearings.values[place], here[others], self.bearings.values[others])
-        ways, taken = model.transitions, set[tuple[int, int]]()
+        ways, taken, met = model.transitions, set[tuple[int, int]](), set[int]()
         for pair in sorted(found, key=lambda pair: ways.beyond(int(others[pair.other]), pair.back) != place):
-            mine, its = (place, pair.action), (int(others[pair.other]), pair.back)
-            if taken.isdisjoint((mine, its)) and all(
-                self._free(model, way, place, apart[pair.other]) for way in (mine, its)
-            ):
+            mine, its, far = (place, pair.action), (int(others[pair.other]), pair.back), apart[pair.other]
+            if its[0] in met or not taken.isdisjoint((mine, its)):  # two places share one way at most
+                continue
+            if self._free(model, mine, place, far) and self._free(model, its, place, far):
                 taken |= {mine, its}
+                met.add(its[0])
                 self._link(model, mine, its[0])
                 self._link(model, its, place)
 
