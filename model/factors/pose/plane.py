@@ -189,7 +189,11 @@ class Plane(NoPose):
         found: list[tuple[int, int, float]] = []
         for place, action in np.argwhere((self.bearings.values >= 0.0) & ~walked & entered[:, None]).tolist():
             there = ways.beyond(place, action)
-            if there is not None and entered[there] and (there, place) not in walks:
+            if there is None or not entered[there]:
+                continue
+            seen = np.flatnonzero(self.bearings.values[place] >= 0.0).tolist()
+            twice = sum(ways.beyond(place, other) == there for other in seen) > 1  # one of them leads elsewhere
+            if twice or (there, place) not in walks:
                 apart = float(np.linalg.norm(self.where.values[there] - self.where.values[place]))
                 found.append((place, action, max(self._log_length(apart), 0.0)))
         return found
