@@ -16,7 +16,7 @@ SCRIPTS = sorted(FOLDER.glob("*.py"))
 LECTURE = FOLDER / "lecture.ipynb"
 SAYS = {
     "body_in_minigrid": ("low-level steps: floor", "all 9 rooms in", "9 places, 9 visited"),
-    "inspect_factor_graph": ("M(moved20)", "{0: 0.5, 1: 0.5}", "less log evidence"),
+    "inspect_factor_graph": ("M(moved19)", "{0: 0.5, 1: 0.5}", "less log evidence"),
     "kidnap_and_recover": ("P(moved) 1.000", "not certain", "still 16 places"),
     "own_factor_graph": ("evidence lower bound", "P(today | the day before)", "fever"),
     "own_gymnasium": ("step 0: in room 3, sees lab", "6 places, 6 visited", "free energy"),
