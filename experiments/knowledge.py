@@ -160,7 +160,8 @@ class Knowledge:
         if self._left or self._truth.visited(walker.map):
             return not self._left, learned
         right = self.trail.verdict(walker, self._truth.chart).map_right
-        return right, learned or right
+        visited = walker.map.pose.settles and int(walker.map.visited.sum()) >= len(self._truth.number)
+        return right or visited, learned or right
 
 
 def _offsets(ahead: Sequence[Sequence[int]], start: int, displacements: Sequence[Offset]) -> dict[int, Offset]:

@@ -141,7 +141,7 @@ def test_the_map_holds_ways_that_lead_one_way_only() -> None:
     assert learned["way_misread"] < 0.02
 
 
-def test_where_nothing_else_is_left_even_what_is_hardly_probable_is_told_apart() -> None:
+def test_a_torus_with_three_labels_is_not_left_folded() -> None:
     world = torus(4, 4, diagonal=3, seed=100_000)
     agent = Agent(world.motions, settings=Settings(look_ahead=4), seed=100)
     trail = walked(world, agent, 60, seed=100)

@@ -358,3 +358,22 @@ def test_whether_two_sides_are_one_door_is_what_was_read_of_both(mine, its):
         assert found is None
     else:
         assert found == pytest.approx(total[True] / (total[True] + total[False]), abs=1e-9)
+
+
+def test_a_room_of_which_several_doors_are_shut_at_once_is_the_same_room():
+    tracker, grid = Tracker(LATTICE), Grid([[0, 0, 1], [2, 0, 4], [3, 3, 3]])
+    walk(tracker, grid, "RRDDLLUURDURDLRDULDRUULDLURRDDUU")
+    assert (tracker.best.size, len(tracker.hypotheses), grid.at) == (9, 1, (0, 2))
+
+    def seen(action: int) -> Sensed:
+        percept = grid.percept(action)
+        middle = (0.0, 0.0, 1.0, 0.0)
+        return Sensed(percept.sights, middle if grid.at == (1, 1) else percept.ways, action)
+
+    for action in (2, 2, 1, 3, 2, 0, 1, 3, 2, 0):  # into the middle from the left, three times
+        tracker.step(seen(action), [5])
+    assert tracker.best.size == 9
+    middle = next(k for k in tracker.best.places if tracker.best.places[k].position == (1, 1))
+    opened = [probability(way_odds(tracker.best, middle, tracker.best.places[middle], way)) for way in range(4)]
+    assert [p > 0.5 for p in opened] == [False, False, True, False]
+    assert exp(tracker.best.weight) > 0.9

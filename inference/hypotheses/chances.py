@@ -41,6 +41,7 @@ class Chances:
             odds that one reading is worth; a sensor each.
         labels: number of labels of each sensor, one never met included.
         pairs: P(two sides are one door), by what was read of each, as far as it was worked out.
+        rebuilt: P(all ways of a place are others than they were), which is what one of them has.
         doors: what so many readings of the other side of a door add, as far as it was worked out.
         fails, astray, moved, elsewhere, undone, new, relinked, square: as the rates are called.
     """
@@ -60,6 +61,7 @@ class Chances:
         "odds",
         "open",
         "pairs",
+        "rebuilt",
         "relinked",
         "right",
         "sight_unit",
@@ -79,7 +81,8 @@ class Chances:
         self.odds = log(self.open / (1.0 - self.open))
         self.wrong = min(max(mean(WAY_MISREAD), SUREST), LEAST_SURE)
         self.unit = log((1.0 - self.wrong) / self.wrong)
-        self.limit = -log(mean(CHANGED))
+        self.rebuilt = mean(CHANGED)
+        self.limit = -log(self.rebuilt)
         self.most = self.limit / self.unit
         self.fails, self.astray, self.moved = mean(FAILS), mean(ASTRAY), mean(MOVED)
         self.elsewhere, self.undone, self.new = mean(ELSEWHERE), mean(UNDONE), mean(NEW)

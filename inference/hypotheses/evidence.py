@@ -21,10 +21,39 @@ def log_likelihood(h: Hypothesis, number: int, sensed: Sensed) -> float:
     for sensor, reading in enumerate(sensed.sights):
         if reading is not None:
             p *= sight_probability(chances, sensor, place.sights[sensor], reading)
+    q = _ways_as_they_were(h, number, place, sensed)
+    if q < chances.rebuilt:
+        q = (1.0 - chances.rebuilt) * q + chances.rebuilt * _anew(h, sensed)
+    return log(max(p * q, LEAST)) + (0.0 if sensed.others is None else sensed.others(number))
+
+
+def was_rebuilt(h: Hypothesis, number: int, place: Place, sensed: Sensed) -> bool:
+    """Whether the ways of a place more probably all are others than they were, by how they are read."""
+    against = sum(
+        reading is not None and way.net * (reading - 0.5) < 0.0
+        for way, reading in zip(place.ways, sensed.ways, strict=True)
+    )
+    if against < 2:
+        return False
+    rebuilt, q = h.chances.rebuilt, _ways_as_they_were(h, number, place, sensed)
+    return rebuilt * _anew(h, sensed) > (1.0 - rebuilt) * q
+
+
+def _ways_as_they_were(h: Hypothesis, number: int, place: Place, sensed: Sensed) -> float:
+    q = 1.0
     for way, reading in enumerate(sensed.ways):
         if reading is not None:
-            p *= reading_probability(chances, probability(way_odds(h, number, place, way)), reading)
-    return log(max(p, LEAST)) + (0.0 if sensed.others is None else sensed.others(number))
+            q *= reading_probability(h.chances, probability(way_odds(h, number, place, way)), reading)
+    return q
+
+
+def _anew(h: Hypothesis, sensed: Sensed) -> float:
+    """P(ways as they are read), of a place of which nothing is known: that of one that was rebuilt."""
+    p = 1.0
+    for way, reading in enumerate(sensed.ways):
+        if reading is not None:
+            p *= reading_probability(h.chances, h.open(way), reading)
+    return p
 
 
 def log_predictive(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> float:

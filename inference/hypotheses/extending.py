@@ -8,7 +8,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_probability, odds_beyond, probability, same_door
+from .evidence import label_probability, odds_beyond, probability, same_door, was_rebuilt
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -181,8 +181,10 @@ def _look(h: Hypothesis, number: int, sensed: Sensed, time: int) -> None:
         seen(chances, sensor, counts, reading)
         for sensor, (counts, reading) in enumerate(zip(place.sights, sensed.sights, strict=True))
     )
+    rebuilt = bool(place.recent) and was_rebuilt(h, number, place, sensed)
     ways = tuple(
-        way if reading is None else _read(h, way, reading) for way, reading in zip(place.ways, sensed.ways, strict=True)
+        way if reading is None else _read(h, way._replace(net=0.0, open=0.0, blocked=0.0) if rebuilt else way, reading)
+        for way, reading in zip(place.ways, sensed.ways, strict=True)
     )
     if not place.recent:
         _count_looks(h, sensed)

@@ -74,7 +74,7 @@ RATE_PRIORS = (
     RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),
     RatePrior("moved", "the agent is moved without a word", LEFT_ALONE),
     _beta("elsewhere", 0.25, 4.0, "a way leads where the pose does not say"),
-    _beta("undone", 20.0, 0.5, "the reverse of an action leads back"),
+    RatePrior("undone", "the reverse of an action leads back", ((0.98, 20.0, 0.5), (0.02, 0.5, 0.5))),
     _beta("changed", 0.5, 500.0, "a way opens or closes between two looks"),
     _beta("beside", 1.0, 1.0, "a way between places found beside each other is open"),
     _beta("new", 1.0, 1.0, "a way that was never walked leads to a place never seen (without poses)"),
