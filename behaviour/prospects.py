@@ -75,8 +75,8 @@ class Followings:
 
 
 def new_agent(ground: Ground, *, look_ahead: int = LOOK_AHEAD, seed: int = 0) -> Agent:
-    """The agent that is led along walks: the paper's model, policies grown on the map."""
-    planner = Planner(policies=MapGuided())
+    """The agent that is led along walks: the paper's model, policies grown on the map, by all that they may teach."""
+    planner = Planner(policies=MapGuided(), explorer=None)
     return Agent(dict(ground.motions), planner=planner, settings=Settings(look_ahead=look_ahead), seed=seed)
 
 

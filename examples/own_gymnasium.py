@@ -49,7 +49,7 @@ class House(gym.Env[dict[str, Any], int]):
 def look_on(moment: Moment) -> bool:
     print(f"step {moment.step}: in room {moment.info['place']}, sees {moment.observation['sight']}, ", end="")
     print("goes", House.motions.names[moment.action])
-    return bool(moment.agent.map.visited.all())  # True ends the run
+    return moment.agent.certain and len(moment.agent.map.visited_places) == len(ROOMS)  # True ends the run
 
 
 done = run(House(), steps=30, seed=0, watch=look_on)

@@ -71,7 +71,7 @@ class Planner:
     @property
     def _usual(self) -> bool:
         """Whether it plans as any planner does that is given nothing."""
-        return isinstance(self.policies, MapGuided) and self.terms == TERMS and self.choice == Outward()
+        return type(self.policies) is MapGuided and self.terms == TERMS and self.choice == Outward()
 
     @classmethod
     def paper(cls) -> Planner:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from cogmap.agent import Agent, Settings
 from cogmap.model import GROWTHS, Growth, StaticGrowth
 from cogmap.planning import CHOICES, POLICIES, MapGuided, Planner
 
-NAMES = ("growth", "places", "policies", "beam", "choice")
+NAMES = ("growth", "places", "policies", "beam", "choice", "explorer")
 
 
 def growth_named(name: str, *, places: int = 40) -> Growth:
@@ -22,6 +23,7 @@ def parts_of(options: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]
     planner = Planner(
         policies=policies if beam is None else MapGuided(beam=beam), choice=CHOICES[options.get("choice", "outward")]()
     )
+    planner = planner if options.get("explorer", True) else replace(planner, explorer=None)
     growth = growth_named(options.get("growth", "predicted"), places=options.get("places") or 40)
     return {"growth": growth, "planner": planner}, {name: value for name, value in options.items() if name not in NAMES}
 

@@ -46,7 +46,7 @@ def assert_plain(agent: Agent) -> None:
 def test_with_nothing_dropped_all_is_plain(name: str, policies: str) -> None:
     options: dict[str, Any] = {"beam": MANY, "starts": MANY, "filter": FilterOptions(support=0.0)}
     world = load_world(name)
-    agent = agent_with(world.motions, look_ahead=3, policies=policies, **options, seed=1)
+    agent = agent_with(world.motions, look_ahead=3, policies=policies, explorer=False, **options, seed=1)
     entered = 0
     for step, _ in enumerate(walk(world, agent, 26, seed=1, displace_every=9)):
         if len(agent.map.visited_places) == entered:  # else it has committed itself to a new place

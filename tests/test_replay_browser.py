@@ -162,7 +162,8 @@ def test_the_map_on_the_page_is_the_one_recorded(open_page: Any, pages: Path) ->
             visited = sum(place[1] for place in picture.places)
             words = f"{len(picture.places)} places, {visited} visited."
             assert words in page.locator("#map-legend").text_content()
-            assert page.locator("#map-svg .place:not(.hollow)").count() == visited
+            drawn = sum(place[1] and place[0] is not None for place in picture.places)  # or nobody knows where it is
+            assert page.locator("#map-svg .place:not(.hollow)").count() == drawn
             assert page.locator("#map-svg .hollow").count() == len(picture.places) - visited
 
 

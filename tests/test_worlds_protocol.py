@@ -88,7 +88,7 @@ def test_ways_of_a_place_as_actions_of_the_whole_world() -> None:
     most = max(len(chart.exits(place)) for place in chart.places)
     assert len(world.motions.names) == world.action_space.n == most
     observation, info = world.reset(seed=0)
-    assert observation.keys() == {"sight", "open"}
+    assert observation.keys() == {"sight", "open", "bearings", "displacement"}
     assert world.observation_space["open"].contains(observation["open"].astype("int8"))
     for place in chart.places:
         seen = world.displace(place)

@@ -32,7 +32,7 @@ class TrackerOptions:
 
     most: int = 32
     least: float = 1e-5
-    folded: int = 4
+    folded: int = 2
     doubt: float = 1e-3
     calm: bool = True
 

@@ -60,7 +60,7 @@ def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
 CALM_OR_NOT = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 0.5, 2.0))
 """It hardly ever happens, or else often enough, or else very often."""
 
-LEFT_ALONE = ((0.98, 0.5, 500.0), (0.015, 0.5, 20.0), (0.005, 0.5, 2.0))
+LEFT_ALONE = ((0.98, 0.5, 500.0), (0.0199, 0.5, 20.0), (0.0001, 0.5, 2.0))
 """The same of what hardly any world does, and some do at every step."""
 
 READ = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 6.0, 14.0))

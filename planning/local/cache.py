@@ -140,7 +140,7 @@ class LocalCache:
     def refresh(self) -> None:
         """Forget what has changed since the last call."""
         map_, read = self._map, self._read
-        ways, _ = map_.changed_places(read, map_.B_s, map_.visits)
+        ways, _ = map_.changed_places(read, map_.B_s, map_.visits, map_.transitions.walked)
         self._note_untried(ways)
         tables = [sensor.table for sensor in map_.sights_sensed]
         sights, self._read = map_.changed_places(read, map_.A_p, *tables)
