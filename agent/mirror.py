@@ -145,14 +145,24 @@ class Mirror:
         return tuple(doors)
 
     def one_way(self, h: Hypothesis, number: int) -> tuple[int, ...]:
-        """The actions whose ways from a place are believed open on one side and shut on the other."""
-        record, inverse, found = h.places[number], h.scheme.inverse, list[int]()
-        for way in range(h.scheme.count) if inverse is not None else ():
+        """The actions whose ways from a place are no way back: what is known of one side says nothing of the other.
+
+        They are believed open on one side and shut on the other, or walks from there lead, or came from, elsewhere.
+        """
+        record, inverse = h.places[number], h.scheme.inverse
+        if inverse is None:
+            return ()
+        come = {(inverse[by], source) for source, by in record.into}
+        found: list[int] = []
+        for way, known in enumerate(record.ways):
             other = h.neighbour(record, way)
-            if other != NOWHERE and inverse is not None:
-                here, there = open_probability(h, number, way), open_probability(h, other, inverse[way])
-                if (here > 0.5) != (there > 0.5):
-                    found.append(self._actions[way])
+            if other == NOWHERE:
+                continue
+            back = h.places[other].ways[inverse[way]]
+            here, there = open_probability(h, number, way), open_probability(h, other, inverse[way])
+            crooked = known.to != NOWHERE and any(by == way and source != known.to for by, source in come)
+            if (here > 0.5) != (there > 0.5) or back.to not in (NOWHERE, number) or crooked:
+                found.append(self._actions[way])
         return tuple(found)
 
     # -- following -----------------------------------------------------------------------------------------

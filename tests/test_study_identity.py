@@ -66,3 +66,9 @@ def test_its_tables_and_pictures(tmp_path: Path, rows: list[IdentityRow]) -> Non
     for draw in found.figures.values():
         draw().savefig(tmp_path / "x.svg")
     json.dumps(found.json["rows"])
+
+
+def test_the_map_says_what_the_hypothesis_says_after_a_move() -> None:
+    """A way that was walked from one side only is no way back, or the map would have two rooms behind one door."""
+    case = "moved once, 4x4_alias"
+    assert Identity(cases=(case,), beside=()).run((case, "cogmap", 2), Settings()).exact
