@@ -73,3 +73,21 @@ def test_pythons_are_those_that_are_tested() -> None:
     named = set(re.findall(r"Python :: (3\.\d+)", "\n".join(project["classifiers"])))
     workflow = (ROOT / ".github" / "workflows" / "tests.yml").read_text("utf-8")
     assert named == set(re.findall(r'"(3\.\d+)"', workflow))
+
+
+WITHOUT = """
+import sys
+sys.modules.update(dict.fromkeys(("minigrid", "distributed", "dask", "pandas")))  # as if they were not installed
+from cogmap.experiments.studies import studies
+from cogmap.experiments.cli import main
+assert "tolman" in studies()
+sys.argv = ["cogmap", "study", "donut", "--runs", "1", "--out", sys.argv[1]]
+main()
+"""
+
+
+def test_what_needs_no_extra_goes_without_any(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", WITHOUT, str(tmp_path / "donut")]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "donut" / "donut.json").is_file()

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...agent import Settings
-from ...body import COLOURS, embodied, load_embodied
+from ...body import COLOURS, load_embodied
 from ...views import BLUE, GREY
 from ...worlds import Maze, hall
 from .. import Record, explore, kidnap, mean, navigate
@@ -77,6 +77,8 @@ class Bodies(Study[Task, BodyRun]):
             return BodyRun(case, seed, moved.recovered and moved.map_intact is True)
         size, noisy = case if case in SIZES else "3x3", case == "noise"
         most = 12 if case == CASES[-1] else 4
+        from ...body import embodied  # MiniGrid, which the other studies can do without
+
         world = embodied(_hall(size, seed), view="rgb", most=most, noise=NOISE if noisy else None)
         seen = explore(world, seed, settings=settings)
         complete, share = seen.steps_to_complete is not None, seen.tiles_seen or 0.0
