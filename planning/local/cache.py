@@ -145,7 +145,7 @@ class LocalCache:
         sights, self._read = map_.changed_places(read, map_.A_p, *tables)
         self._forget_ways(ways)
         self._tries.forget(ways)
-        self._unasked = None if ways is None or self._unasked is None else self._unasked | ways
+        self._unasked = None if ways is None or self._unasked is None else self._unasked.union(ways)
         outcomes = [table.outcomes for table in tables]
         if outcomes != self._outcomes:
             sights, self._unseen = None, None
