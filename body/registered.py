@@ -92,7 +92,7 @@ class RegisteredWorld(gym.Env[Observation, Any]):
         """Go through a way."""
         before = self.body.reward
         if not self.body.ended:
-            self._percept = self.body.wake() if action == _STAY else self.body.perform(int(action))
+            self._percept = self.body.stay() if action == _STAY else self.body.perform(int(action))
         return self._observation(), self.body.reward - before, self.body.ended, False, self._info()
 
     def _observation(self) -> Observation:

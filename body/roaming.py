@@ -31,6 +31,7 @@ class RoamingBody(MiniGridBody):
     Ways are doors and gaps, numbered as they are seen first, the same from both sides: several may lie in one wall. It
     looks at the whole of a room before it answers. What it is sent for comes first, as soon as it is seen; a key is
     fetched once its locked door is known as well, and the door unlocked; what lies in the way of these is put aside.
+    Without an errand it sees to locked doors when it is told to `stay`.
 
     Attributes:
         held: what it carries, in words; None of nothing.
@@ -43,6 +44,8 @@ class RoamingBody(MiniGridBody):
         self._carried: int | None = None
         self._lifted: set[mg.Tile] = set()
         self._rooms: list[frozenset[mg.Tile]] = []
+        self._beyond_door: mg.Tile | None = None
+        self._idle = False
         self._passed: tuple[set[mg.Tile], int] = set(), 0
 
     def begin(self, observation: Any, *, errand: Errand | None = None) -> None:
@@ -51,12 +54,25 @@ class RoamingBody(MiniGridBody):
         self._doors.clear()
         self._lifted.clear()
         self._rooms.clear()
+        self._beyond_door = None
         super().begin(observation)
 
     def wake(self) -> Percept:
         """Look round once, at all of the room."""
         begin = self.steps
         return self._attended(None, begin)
+
+    def stay(self) -> Percept:
+        """Look round, and unlock what can be unlocked."""
+        self._idle, begin = True, self.steps
+        told = self._attended(None, begin)
+        self._idle = False
+        return told
+
+    @property
+    def pending(self) -> bool:
+        """Whether there is a locked door whose key it can fetch."""
+        return self._to_doors() is not None
 
     def perform(self, way: int, *, budget: int | None = None) -> Percept:
         """Go through a door by its number, in `budget` low-level steps at most, and look at all of the room beyond."""
@@ -172,7 +188,19 @@ class RoamingBody(MiniGridBody):
         words = vocabulary()
         if self._carried is not None and words.key[self._carried] < 0:
             return self._put_down()
-        return self._to_errand() or self._to_doors()
+        plan = self._to_errand() or self._through_unlocked()
+        return self._to_doors() if not plan and (self._idle or self._errand is not None) else plan
+
+    def _through_unlocked(self) -> list[int] | None:
+        """Through the door that it has just unlocked: nobody else knows that it is open."""
+        goal, self._beyond_door = self._beyond_door, None
+        if goal is None or goal == self.pose[:2]:
+            return None
+        masks, things = self._known.masks(), set(_tiles(vocabulary().thing[self._known.tile]))
+        within = {goal, *_tiles(masks.free | masks.shut)} - things
+        plan = route(self.pose, self._known, [goal], within=within, lift=things)
+        self._beyond_door = goal if plan else None
+        return self._lifting(plan)
 
     def _to_errand(self) -> list[int] | None:
         errand = self._errand
@@ -225,8 +253,12 @@ class RoamingBody(MiniGridBody):
     def _clear(self, wanted: NDArray[np.bool_]) -> list[int] | None:
         """Take up what lies in the way to a tile of some kinds; None where that does not help."""
         plan = self._towards(wanted, upon=False, lift=True)
+        return self._lifting(plan) if plan is not None and PICKUP in plan else None
+
+    def _lifting(self, plan: list[int] | None) -> list[int] | None:
+        """A plan as far as the first thing that has to be taken up, which takes empty hands."""
         if plan is None or PICKUP not in plan:
-            return None
+            return plan
         return self._put_down() if self._carried is not None else plan[: plan.index(PICKUP) + 1]
 
     def _make_way(self, beyond: set[mg.Tile], room: frozenset[mg.Tile]) -> bool:
@@ -263,6 +295,8 @@ class RoamingBody(MiniGridBody):
         x, y, heading = self.pose
         ahead = (x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1])
         thing = int(self._known.tile[ahead[1], ahead[0]])
+        if action == TOGGLE and vocabulary().locked[thing] >= 0:
+            self._beyond_door = (ahead[0] + mg.AHEAD[heading][0], ahead[1] + mg.AHEAD[heading][1])
         self._act(action)
         if action == PICKUP and self._known.free(ahead):
             self._carried, self._known.key = thing, int(vocabulary().key[thing])
