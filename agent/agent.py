@@ -335,4 +335,5 @@ class Agent(Filed):
             costs=self._state.expected_costs(len(self.map.motions), stay=self.map.motions.stay),
             structure=None if preferences else self._recognition.question,  # what is preferred comes first
             unseen=unseen_ways(self._state.percept, self.map.motions),
+            prices=self._state.prices(),
         )
