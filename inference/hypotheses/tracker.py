@@ -38,7 +38,7 @@ SHARED = 16
 """Steps after which several hypotheses share what they have in common."""
 
 DECIDED = 256
-"""Steps after which what was open is decided: hypotheses must not differ in more and more that nothing will ever tell."""
+"""Steps after which what was open is decided, or hypotheses would differ in more and more that nothing ever tells."""
 
 MANY = 4096
 """Foldings that are remembered."""
@@ -220,7 +220,7 @@ class Tracker:
         return found
 
     def _decided(self, found: list[Hypothesis]) -> list[Hypothesis]:
-        """Now and then those alone that go back to one hypothesis of some time ago, the one that has the most of them."""
+        """Now and then those alone that go back to one hypothesis of some time ago, the one that most go back to."""
         if self.time % DECIDED:
             return found
         best, mass = found[0].weight, dict[int, float]()
