@@ -134,8 +134,8 @@ def _seal(header: dict[str, Any], arrays: dict[str, np.ndarray]) -> None:
 def _nudged(array: np.ndarray, rng: random.Random) -> np.ndarray:
     """A number is another of its kind, or that of somewhere else."""
     array, at = array.copy(), rng.randrange(array.size)
-    others = [array[at] + 1, array[at] - 1, -array[at], 2 * array[at], array[rng.randrange(array.size)]]
     with np.errstate(all="ignore"):
+        others = [array[at] + 1, array[at] - 1, -array[at], 2 * array[at], array[rng.randrange(array.size)]]
         array[at] = np.array(rng.choice([*others, rng.choice(NUMBERS)])).astype(array.dtype)
     return array
 
