@@ -49,7 +49,7 @@ def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int =
         return _doubted(around, search, most)
     if search.depth[ends[0]] <= beyond:
         return None
-    depth = np.array([search.depth[end] for end in ends], dtype=np.float64)
+    depth = np.array([search.depth[end] + search.extra(end) for end in ends], dtype=np.float64)
     back = _back(around, np.array(ends, dtype=np.int64), search)
     worth = depth - weight * back
     best = np.argsort(worth, kind="stable")
@@ -85,12 +85,19 @@ class _Search:
         depth: how far it is to each place that was met.
         ends: places never entered, the nearest first.
         by: what ways are measured in.
+        before: the place and the action that lead to each.
+        prices: `[K]` what the first step costs, by its action; None where that is one.
     """
 
     depth: dict[int, float]
     ends: list[int]
     by: str
-    before: dict[int, tuple[int, int]]  # place and action
+    before: dict[int, tuple[int, int]]
+    prices: Floats | None = None
+
+    def extra(self, end: int) -> float:
+        """What the first step of the way there costs more than a usual one."""
+        return 0.0 if self.prices is None else float(self.prices[self.path(end)[0]]) - 1.0
 
     def path(self, end: int) -> tuple[int, ...]:
         """The actions that lead there."""
@@ -119,14 +126,14 @@ def _by_steps(around: Surroundings, reach: float) -> _Search:
     """Breadth first, until `reach` times as far as the nearest place never entered, and a step."""
     map_, cache = around.map, around.cache
     visited, start = map_.visited, int(around.starts[0])
-    search = _Search({start: 0}, [], STEPS, {})
+    search = _Search({start: 0}, [], STEPS, {}, around.prices)
     level, steps, most = [start], 0, np.inf
     while level and steps < most and len(search.ends) < MOST:
         steps += 1
         rows = (cache.likely(np.array(level)) if steps > 1 else around.sensed()).tolist()
         ahead: list[int] = []
         for place, row in zip(level, rows, strict=True):
-            for action, after in enumerate(row):
+            for action, after in _cheapest_first(row, search.prices if steps == 1 else None):
                 if after >= 0 and after not in search.depth:
                     search.depth[after], search.before[after] = steps, (place, action)
                     (ahead if visited[after] else search.ends).append(after)
@@ -134,6 +141,11 @@ def _by_steps(around: Surroundings, reach: float) -> _Search:
             most = reach * steps + 1.0
         level = ahead
     return search
+
+
+def _cheapest_first(row: list[int], prices: Floats | None) -> list[tuple[int, int]]:
+    """Actions and where they lead; of two ways to one place the one that begins cheaper is taken."""
+    return list(enumerate(row)) if prices is None else [(a, row[a]) for a in np.argsort(prices, kind="stable").tolist()]
 
 
 def _by_length(around: Surroundings, reach: float) -> _Search:
