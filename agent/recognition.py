@@ -21,6 +21,7 @@ from ..inference import (
     TrackerOptions,
     open_probability,
     rates_of,
+    together,
     tracker_knowing,
     ways_misread,
 )
@@ -176,7 +177,7 @@ class Recognition:
         if len(hypotheses) < 2:
             return graph
         weights = [exp(h.weight) for h in hypotheses]
-        places = [self.mirror.place(h) for h in hypotheses]
+        places = [self.mirror.place(self._now if together(h, self._now) else h) for h in hypotheses]
         return with_question(graph, weights, places, followed=hypotheses.index(self._now), step=step)
 
     def missed(self) -> None:
@@ -207,7 +208,7 @@ class Recognition:
         return replace(belief, doubt=min(lost, 1.0))
 
     def believed(self, percept: Percept, here: int) -> Belief:
-        """The belief that the hypotheses amount to, over the places of the map; the followed one has the agent `here`."""
+        """The belief that hypotheses amount to, over the places of the map; the followed one has the agent `here`."""
         map_, none = self._map, np.zeros(0, dtype=np.int64)
         mass, elsewhere = self.mirror.belief(self._weights(), here=here)
         places = np.array(sorted(mass), dtype=np.int64)
