@@ -63,6 +63,11 @@ class Mirror:
         found = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Ways)]
         self.ways = found[0] if found else map_.unsensed_ways()
 
+    @property
+    def in_order(self) -> tuple[int, ...]:
+        """The places of the map, in the order of those of the hypothesis."""
+        return tuple(self.places[number] for number in sorted(self.places))
+
     # -- reading -------------------------------------------------------------------------------------------
 
     def position(self, h: Hypothesis, number: int) -> Position | None:

@@ -29,6 +29,8 @@ def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str,
             raise CogmapError("observation: 'open' and 'ways' are two words for one thing; give one of them")
         given["open"] = given.pop("ways")
     for name in model.sensors:
+        if model.sensors[name].optional:
+            given.setdefault(name, UNSEEN)
         if name not in given:
             raise CogmapError(f"observation: key {name!r} is missing; give {_keys(model)}")
     values = {name: _sensed(sensor.check, given.pop(name)) for name, sensor in model.sensors.items()}

@@ -106,6 +106,7 @@ def test_ascii_mazes_and_commas_are_refused_unless_asked_for() -> None:
 
 def test_ids_are_there_once_the_worlds_are() -> None:
     assert gym.make("cogmap.worlds:cogmap/4x4-v0").unwrapped.maze == MAZES["4x4"]
+    assert load_world("cogmap/4x4-v0").maze == MAZES["4x4"]
     alone = "import gymnasium; print(gymnasium.make('cogmap.worlds:cogmap/4x4-v0').unwrapped.maze.shape)"
     assert subprocess.run([sys.executable, "-c", alone], capture_output=True, text=True).stdout == "(4, 4)\n"
 
