@@ -160,8 +160,15 @@ class Agent(Filed):
         """
         return self._whole(lambda: self._perceive(observation))
 
+    _frame_turns = False
+
     def _perceive(self, observation: Mapping[str, Any]) -> Belief:
         state, values = self._state, checked(observation, self.map)
+        if values.get("turn") and not self._frame_turns:
+            raise CogmapError(
+                f"observation: 'turn' is {values['turn']!r}, and the frame of this agent does not turn; leave it out, "
+                "or make a TurningAgent"
+            )
         wakes = not state.steps and self._recognition.followed is not None  # in a map that was given, somewhere
         if wakes or state.told:
             values["moved"] = True
@@ -338,4 +345,5 @@ class Agent(Filed):
             costs=self._state.expected_costs(len(self.map.motions), stay=self.map.motions.stay),
             structure=None if preferences else self._recognition.question,  # what is preferred comes first
             unseen=unseen_ways(self._state.percept, self.map.motions),
+            prices=self._state.prices(),
         )

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from .branches import Lead, leads
 from .chances import Chances
-from .evidence import label_probability, probability, way_odds
+from .evidence import label_shares, probability, way_odds
 from .hypothesis import Hypothesis
 from .rates import RATE_PRIORS, WAY_MISREAD, RateCounts
 from .records import SightCounts
@@ -42,8 +42,7 @@ def where_to(h: Hypothesis, number: int, way: int) -> Lead:
 
 def label_probabilities(h: Hypothesis, number: int, *, sensor: int = 0) -> dict[int, float]:
     """P(label) of the labels that were read in a place; those never read there share what is missing to one evenly."""
-    counts = h.places[number].sights[sensor]
-    return {label: label_probability(h.chances, sensor, counts, label) for label in counts}
+    return label_shares(h.chances, sensor, h.places[number].sights[sensor])
 
 
 def whereabouts(h: Hypothesis) -> dict[int, float]:

@@ -37,6 +37,9 @@ NEAR = log(100.0)
 SHARED = 16
 """Steps after which several hypotheses share what they have in common."""
 
+DECIDED = 256
+"""Steps after which what was open is decided, or hypotheses would differ in more and more that nothing ever tells."""
+
 MANY = 4096
 """Foldings that are remembered."""
 
@@ -209,10 +212,23 @@ class Tracker:
         children = [self._extended(branch, sensed) for branch in happened]
         proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
         found = merged(children, proposed)
-        found = [h for h in found if h.weight > found[0].weight - drop]
+        found = self._decided([h for h in found if h.weight > found[0].weight - drop])
         found = self._doubted_or_clear(found, previous, drop, wide)
         best = found[0]
         self.change = Change("extended", tuple(best.touched)) if best.origin is previous else Change("revised")
+        return found
+
+    def _decided(self, found: list[Hypothesis]) -> list[Hypothesis]:
+        """Now and then those alone that go back to one hypothesis of some time ago, the one that most go back to."""
+        if self.time % DECIDED:
+            return found
+        best, mass = found[0].weight, dict[int, float]()
+        for h in found:
+            mass[h.clan] = mass.get(h.clan, 0.0) + exp(h.weight - best)
+        clan = max(mass, key=mass.__getitem__)
+        found = [h for h in found if h.clan == clan]
+        for number, h in enumerate(found):
+            h.clan = number
         return found
 
     def _doubted_or_clear(
