@@ -21,7 +21,7 @@ from .logs import log_sum
 from .lookback import BACK, Past, passed_over
 from .options import Change, Checkpoint, TrackerOptions
 from .pruning import merged, normalised
-from .reading import whereabouts
+from .reading import together, whereabouts
 from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
@@ -118,13 +118,12 @@ class Tracker:
     def certainty(self) -> float:
         """Probability of the hypotheses that agree with the best one on where the agent is."""
         best = self.best
-        before = _before(best)
         total = 0.0
         for h in self.hypotheses:
             if h.crowd is not None or best.crowd is not None:
                 total += exp(h.weight) * whereabouts(h).get(best.here, 0.0)
             else:
-                total += exp(h.weight) * (h.here == best.here or _before(h) == before)
+                total += exp(h.weight) * together(h, best)
         return min(total, 1.0)
 
     # -- going back, and files ----------------------------------------------------------------------------
@@ -336,9 +335,3 @@ class Tracker:
                 before = self._tried.get(key)
                 self._overwritten.append((key, before))
                 self._tried[key] = (before or NEVER).again(h, self.time, contradicted=united)
-
-
-def _before(h: Hypothesis) -> int | None:
-    """When the agent was last where it is now, before now."""
-    recent = h.places[h.here].recent
-    return recent[-2] if len(recent) > 1 else None
