@@ -8,7 +8,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_probability, odds_beyond, probability, same_door, was_rebuilt, way_odds
+from .evidence import odds_beyond, probability, same_door, sight_probabilities, was_rebuilt, way_odds
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -293,8 +293,8 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     for sensor, counts in enumerate(place.sights):
         if any(count % 1.0 for count in counts.values()):
             continue  # likelihoods say themselves how sure they are
-        for label, count in counts.items():
-            p = label_probability(chances, sensor, counts, label)
+        for label, p in sight_probabilities(chances, sensor, counts).items():
+            count = counts[label]
             misread += count * (1.0 - p)
             read += count * p
     stayed = _stayed(h, number, place) if any(way.stays for way in place.ways) else (0.0, 0.0)
