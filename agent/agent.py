@@ -160,8 +160,15 @@ class Agent(Filed):
         """
         return self._whole(lambda: self._perceive(observation))
 
+    _frame_turns = False
+
     def _perceive(self, observation: Mapping[str, Any]) -> Belief:
         state, values = self._state, checked(observation, self.map)
+        if values.get("turn") and not self._frame_turns:
+            raise CogmapError(
+                f"observation: 'turn' is {values['turn']!r}, and the frame of this agent does not turn; leave it out, "
+                "or make a TurningAgent"
+            )
         wakes = not state.steps and self._recognition.followed is not None  # in a map that was given, somewhere
         if wakes or state.told:
             values["moved"] = True
@@ -270,7 +277,9 @@ class Agent(Filed):
         if not recognition.choose(belief):
             self._revise(percept)
             return
-        state.belief = recognition.weighed(belief)
+        state.belief = recognition.weighed(belief, percept)
+        if state.belief.message is not belief.message:
+            state.window.clear()
         self._remember(percept)
         if recognition.lost:
             return
@@ -290,7 +299,8 @@ class Agent(Filed):
             places = {moved[at]: value for at, value in state.preferences.places.items() if at in moved}
             state.preferences = replace(state.preferences, places=places)
         state.revised = moved is not None or self.belief.place != recognition.place
-        state.belief = recognition.believed(percept) if state.revised else recognition.weighed(self.belief)
+        here, belief = recognition.place, self.belief
+        state.belief = recognition.believed(percept, here) if state.revised else recognition.weighed(belief, percept)
         state.window.clear()
         self._remember(percept)
 
@@ -335,4 +345,5 @@ class Agent(Filed):
             costs=self._state.expected_costs(len(self.map.motions), stay=self.map.motions.stay),
             structure=None if preferences else self._recognition.question,  # what is preferred comes first
             unseen=unseen_ways(self._state.percept, self.map.motions),
+            prices=self._state.prices(),
         )

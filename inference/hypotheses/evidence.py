@@ -95,23 +95,20 @@ def label_probability(chances: Chances, sensor: int, counts: SightCounts, label:
         ((only, count),) = counts.items()
         total = 1.0 + (chances.labels[sensor] - 1) * exp(-unit * count)
         return 1.0 / total if label == only else exp(-unit * count) / total
-    most, total = _scale(chances, sensor, counts)
+    most = max(counts.values(), default=0.0)
+    others = max(chances.labels[sensor] - len(counts), 0) * exp(-unit * most)
+    total = others + sum(exp(unit * (count - most)) for count in counts.values())
     return exp(unit * (counts.get(label, 0.0) - most)) / total
 
 
-def sight_probabilities(chances: Chances, sensor: int, counts: SightCounts) -> dict[int, float]:
+def label_shares(chances: Chances, sensor: int, counts: SightCounts) -> dict[int, float]:
     """`label_probability` of each label that was read there."""
-    if len(counts) == 1:
+    if len(counts) < 2:
         return {label: label_probability(chances, sensor, counts, label) for label in counts}
-    unit, (most, total) = chances.sight_unit[sensor], _scale(chances, sensor, counts)
-    return {label: exp(unit * (count - most)) / total for label, count in counts.items()}
-
-
-def _scale(chances: Chances, sensor: int, counts: SightCounts) -> tuple[float, float]:
-    """The greatest count, and what the weights of all labels come to beside its own."""
-    unit, most = chances.sight_unit[sensor], max(counts.values(), default=0.0)
-    others = max(chances.labels[sensor] - len(counts), 0) * exp(-unit * most)
-    return most, others + sum(exp(unit * (count - most)) for count in counts.values())
+    unit, most = chances.sight_unit[sensor], max(counts.values())
+    odds = {label: exp(unit * (count - most)) for label, count in counts.items()}
+    total = max(chances.labels[sensor] - len(counts), 0) * exp(-unit * most) + sum(odds.values())
+    return {label: p / total for label, p in odds.items()}
 
 
 def new_sight_probability(h: Hypothesis, sensor: int, reading: Reading) -> float:

@@ -11,7 +11,7 @@ from ..errors import CogmapError
 from .base import Context, Floats, Ints, ModelFactor, Support, Table
 from .transition import Transition
 
-_OF_THE_MOVE = ("moved", "taken", "outcome", "displacement", "turn", "cost")
+_OF_THE_MOVE = ("moved", "taken", "outcome", "displacement", "turn", "cost", "costs")
 _TAKEN = frozenset({"s", "p", "o", "c", "Q", "M", "places", "visits", "transition", "pose", *_OF_THE_MOVE})
 
 

@@ -37,7 +37,7 @@ def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int =
         return _doubted(around, search, most)
     if search.depth[ends[0]] <= beyond:
         return None
-    depth = np.array([search.depth[end] for end in ends], dtype=np.float64)
+    depth = np.array([search.depth[end] + search.extra(end) for end in ends], dtype=np.float64)
     back = _back(around, np.array(ends, dtype=np.int64), search)
     worth = depth - weight * back
     best = np.argsort(worth, kind="stable")
@@ -75,9 +75,10 @@ class _Search:
     depth: dict[int, int]
     ends: list[int]
     _before: dict[int, tuple[int, int]]  # place and action
+    _prices: Floats | None
 
     def __init__(self, around: Surroundings, reach: float) -> None:
-        map_, cache = around.map, around.cache
+        map_, cache, self._prices = around.map, around.cache, around.prices
         visited, start = map_.visited, int(around.starts[0])
         self.depth, self.ends, self._before = {start: 0}, [], {}
         level, steps, most = [start], 0, np.inf
@@ -86,13 +87,17 @@ class _Search:
             rows = (cache.likely(np.array(level)) if steps > 1 else around.sensed()).tolist()
             ahead: list[int] = []
             for place, row in zip(level, rows, strict=True):
-                for action, after in enumerate(row):
+                for action, after in _cheapest_first(row, self._prices if steps == 1 else None):
                     if after >= 0 and after not in self.depth:
                         self.depth[after], self._before[after] = steps, (place, action)
                         (ahead if visited[after] else self.ends).append(after)
             if self.ends and most == np.inf:
                 most = reach * steps + 1.0
             level = ahead
+
+    def extra(self, end: int) -> float:
+        """What the first step of the way there costs more than a usual one."""
+        return 0.0 if self._prices is None else float(self._prices[self.path(end)[0]]) - 1.0
 
     def path(self, end: int) -> tuple[int, ...]:
         """The actions that lead there."""
@@ -108,6 +113,11 @@ class _Search:
         while places[-1] in self._before:
             places.append(self._before[places[-1]][0])
         return places
+
+
+def _cheapest_first(row: list[int], prices: Floats | None) -> list[tuple[int, int]]:
+    """Actions and where they lead; of two ways to one place the one that begins cheaper is taken."""
+    return list(enumerate(row)) if prices is None else [(a, row[a]) for a in np.argsort(prices, kind="stable").tolist()]
 
 
 def _back(around: Surroundings, ends: Ints, search: _Search) -> Floats:

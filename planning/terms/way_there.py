@@ -24,14 +24,18 @@ class WayThere(Term):
     sign = 1.0
     kind = "cost"
     colour = "#d55e00"
-    equation = "c where the step does not stay"
+    equation = "c where the step does not stay; of the first step what it costs here"
     meaning = "the way there"
     cost: float = 1.0
 
     def gain(self, rollout: Rollout) -> Floats:
         moved = np.where(rollout.staying, 0.0, self.cost)
         moved[0] = 0.0  # of the empty prefix
+        if rollout.model.prices is not None and rollout.levels:
+            begin, end = rollout.levels[0]
+            moved[begin:end] *= rollout.model.prices[rollout.action[begin:end]]
         return moved
 
     def plain(self, step: Step) -> float:
-        return self.cost * (step.action != step.model.motions.stay)
+        prices = step.model.prices if len(step.path) == 1 else None
+        return self.cost * (step.action != step.model.motions.stay) * (1.0 if prices is None else prices[step.action])
