@@ -57,20 +57,32 @@ def passed_over(
             below = best.weight - branch.weight
             now = first == len(past) - 1
             if branch is not best and below < wide and (not now or below >= narrow or apart(branch, best)):
-                h = _followed(branch, past[first:], history, floor)
-                if h is not None:
-                    yield h
+                yield from _followed(branch, past[first:], history, floor)
 
 
-def _followed(branch: Alternative, past: Sequence[Past], history: History, floor: float) -> Hypothesis | None:
-    """A hypothesis from a branch on, one probable branch after another; what cannot reach the floor is let go."""
+def _followed(branch: Alternative, past: Sequence[Past], history: History, floor: float) -> Iterator[Hypothesis]:
+    """Hypotheses from a branch on, one probable branch after another, and all there are at the last step.
+
+    What cannot reach the floor is let go.
+    """
     h = branch.parent.fork()
-    for k, step in enumerate(past):
-        if k:
-            h.chances = Chances(h.counts, step.labels, size=h.size)
-            branch = max(branches(h, history[step.time], drop=0.5), key=lambda branch: branch.weight)
-        extend(h, branch, history[step.time], step.time)
-        h.weight -= step.norm
+    extend(h, branch, history[past[0].time], past[0].time)
+    h.weight -= past[0].norm
+    for step in past[1:]:
         if h.weight < floor:
-            return None
+            return
+        h.chances = Chances(h.counts, step.labels, size=h.size)
+        if step is past[-1]:
+            for last in branches(h, history[step.time], drop=h.weight - floor):
+                yield _extended(h.fork(), last, step, history)
+            return
+        best = max(branches(h, history[step.time], drop=0.5), key=lambda branch: branch.weight)
+        _extended(h, best, step, history)
+    if h.weight >= floor:
+        yield h
+
+
+def _extended(h: Hypothesis, branch: Alternative, step: Past, history: History) -> Hypothesis:
+    extend(h, branch, history[step.time], step.time)
+    h.weight -= step.norm
     return h

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from heapq import nlargest
-from itertools import islice
 from math import exp, inf, log
 from typing import Any
 
@@ -36,6 +35,9 @@ NEAR = log(100.0)
 
 SHARED = 16
 """Steps after which several hypotheses share what they have in common."""
+
+IN_VAIN = -1e6
+"""Nats that are gained where something is not worth trying again for long."""
 
 MANY = 4096
 """Foldings that are remembered."""
@@ -222,7 +224,7 @@ class Tracker:
         """What is kept: while nothing is in doubt the best one alone, or else all, with what was passed over before."""
         step = Past(self.time, previous, previous.marks, self.labels, 0.0)
         if self._clear and len(found) > 1:
-            floor = found[0].weight - drop
+            floor = found[0].weight - wide
             again = self._looked_back((*self._past, step), floor, drop, wide)
             found = merged(found, [*again, *(fold for h in again for fold in self._folds(h, floor))])
             self._clear, self._quiet = False, 0
@@ -242,7 +244,7 @@ class Tracker:
 
     def _looked_back(self, past: tuple[Past, ...], floor: float, drop: float, wide: float) -> list[Hypothesis]:
         found = passed_over(past, self.history, narrow=drop, wide=wide, floor=floor)
-        return list(islice(found, self.options.most))
+        return nlargest(self.options.most, found, key=lambda h: h.weight)
 
     def _settle(self) -> None:
         """Share what the last step added, once it cannot be undone any more: nobody reads it differently by this."""
@@ -296,30 +298,32 @@ class Tracker:
         place = h.places.get(number)
         if place is not None and (straight := straightened(h, number, floor=h.weight - drop)) is not None:
             yield straight
-        if place is None or self._tried.get(key := (number, number, False, 0), NEVER).blocks(h, self.time):
+        key, floor = (number, number, False, 0), h.weight - drop
+        if place is None or self._tried.get(key, NEVER).blocks(h, self.time, floor):
             return
         if numbers := doubted(h, number, self.history):
-            other = without(h, numbers, self.history, floor=h.weight - drop)
+            other = without(h, numbers, self.history, floor=floor)
             if other is not None:
                 yield other
             else:
-                before = self._tried.get(key)
-                self._overwritten.append((key, before))
-                self._tried[key] = (before or NEVER).again(h, self.time, contradicted=True)
+                self._in_vain(key, h, IN_VAIN)
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
         """The foldings that are probable enough."""
         for one, other, period in pairs(h):
             key = attempt(h, one, other, period=period)
-            if self._tried.get(key, NEVER).blocks(h, self.time):
+            if self._tried.get(key, NEVER).blocks(h, self.time, floor):
                 continue
             united = union(h, one, other, period=period, floor=floor)
             if isinstance(united, Hypothesis):
                 yield united
             else:
-                before = self._tried.get(key)
-                self._overwritten.append((key, before))
-                self._tried[key] = (before or NEVER).again(h, self.time, contradicted=united)
+                self._in_vain(key, h, united)
+
+    def _in_vain(self, key: Attempt, h: Hypothesis, worth: float) -> None:
+        before = self._tried.get(key)
+        self._overwritten.append((key, before))
+        self._tried[key] = (before or NEVER).again(h, self.time, worth)
 
 
 def _before(h: Hypothesis) -> int | None:
