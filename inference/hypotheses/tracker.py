@@ -8,7 +8,7 @@ from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
-from .attempts import NEVER, Attempt, Tried, attempt
+from .attempts import CONTRADICTED, NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
 from .chances import Chances
@@ -22,6 +22,8 @@ from .options import Change, Checkpoint, TrackerOptions
 from .pruning import merged, normalised
 from .reading import whereabouts
 from .records import NOWHERE
+from .rates import ELSEWHERE
+from .recharting import recharted
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
 from .storing import Arrays, Parts, restored, stored
@@ -296,8 +298,8 @@ class Tracker:
         self._doubted -= 1
         number = self._doubts[self._doubted]
         place = h.places.get(number)
-        if place is not None and (straight := straightened(h, number, floor=h.weight - drop)) is not None:
-            yield straight
+        for one in {number, h.here} if place is not None else {h.here}:
+            yield from self._rethought(h, one, h.weight - drop)
         key, floor = (number, number, False, 0), h.weight - drop
         if place is None or self._tried.get(key, NEVER).blocks(h, self.time, floor):
             return
@@ -317,8 +319,20 @@ class Tracker:
             united = union(h, one, other, period=period, floor=floor)
             if isinstance(united, Hypothesis):
                 yield united
+                yield from self._rethought(united, united.here, floor)
             else:
                 self._in_vain(key, h, united)
+
+    def _rethought(self, h: Hypothesis, number: int, floor: float) -> Iterator[Hypothesis]:
+        """Hypotheses in which ways of a place, or the loops that they close, lead elsewhere."""
+        key: Attempt = (number, number, True, 0)
+        if self._tried.get(key, NEVER).blocks(h, self.time, floor):
+            return
+        if (straight := straightened(h, number, floor=floor)) is not None:
+            yield straight
+        if h.counts.yes[ELSEWHERE] >= 0.5:
+            yield from recharted(h, number, floor=floor)
+            self._in_vain(key, h, CONTRADICTED)
 
     def _in_vain(self, key: Attempt, h: Hypothesis, worth: float) -> None:
         before = self._tried.get(key)
