@@ -19,6 +19,10 @@ DOORS = 8.0
 """Nats that doors gain at most, where places come to lie beside others."""
 
 
+BETTER = 0.5
+"""Nats by which another link of a loop explains more, or else there are as many such hypotheses as it has links."""
+
+
 class Link(NamedTuple):
     """A way, and where it leads."""
 
@@ -50,7 +54,7 @@ def recharted(h: Hypothesis, number: int, *, floor: float) -> Iterator[Hypothesi
         odd = Link(number, way, to)
         for link, part in ((odd, Part()), *_loop(h, odd)):
             for cut in (True, False) if part.numbers else (True,):
-                other = _otherwise(h, link, part, cut=cut, floor=floor)
+                other = _otherwise(h, link, part, cut=cut, floor=floor if cut else max(floor, h.weight + BETTER))
                 if other is not None:
                     yield other
 
