@@ -128,11 +128,13 @@ class Recognition:
 
         Where ways are hardly ever misread the last look says it: a door that closes is not taken for a wrong reading.
         """
+        looked = () if ways_misread(self._now) > HARDLY else self._looked or ()
+        if looked and all(look in (0, 1) for look in looked):
+            return tuple(map(bool, looked))
         doors = self.mirror.doors(self._now, self._now.here)
-        if self._looked is None or ways_misread(self._now) > HARDLY:
+        if not looked:
             return doors
-        seen = zip(self._looked, doors, strict=True)
-        return tuple(bool(look) if look in (0, 1) else door for look, door in seen)
+        return tuple(bool(look) if look in (0, 1) else door for look, door in zip(looked, doors, strict=True))
 
     @property
     def one_way(self) -> tuple[int, ...]:

@@ -6,17 +6,15 @@ from collections.abc import Iterable
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..worlds import minigrid as mg
-from .errand import Errand
 from .eyes import DOUBT, Eyes
 from .outlook import Outlook, Sizes, outlook, viewpoint
 from .protocol import Percept
 from .room_map import CENTRE, Pose, RoomMap, around
 from .routes import distances, route
 from .vocabulary import vocabulary
-from .whereabouts import DROP, FORWARD, LEFT, NOTHING, PICKUP, RIGHT, SURE, TOGGLE, Whereabouts, moved
+from .whereabouts import FORWARD, LEFT, NOTHING, RIGHT, SURE, Whereabouts, moved
 
 UP = 3
 """The way a body faces where it wakes up, whatever that is in the world."""
@@ -41,7 +39,6 @@ class MiniGridBody:
     Args:
         limbs: what it drives.
         glance: low-level steps that looking at walls which it has not seen may cost where it arrives.
-        survey: whether it looks at all of a room where it arrives, not at its walls alone.
 
     Attributes:
         steps: low-level steps taken.
@@ -49,10 +46,8 @@ class MiniGridBody:
         reward: the sum of what it was given.
     """
 
-    def __init__(self, limbs: Limbs, *, glance: int = 0, survey: bool = False) -> None:
-        self._limbs, self._glance, self._survey = limbs, glance, survey
-        self._errand: Errand | None = None
-        self._full = False
+    def __init__(self, limbs: Limbs, *, glance: int = 0) -> None:
+        self._limbs, self._glance = limbs, glance
         self._barred: set[mg.Tile] = set()
         self._eyes, self._known, self._sizes = Eyes(), RoomMap(), Sizes()
         self._where = Whereabouts((CENTRE, CENTRE, UP))
@@ -77,12 +72,8 @@ class MiniGridBody:
         """Whether what it saw last fits nothing that it expected."""
         return self._confused
 
-    def begin(self, observation: Any, *, errand: Errand | None = None) -> None:
-        """Open the eyes in a new world, of which nothing is known; the frame begins with where it faces.
-
-        With an errand it looks for that wherever it comes, and runs it as soon as it sees what is wanted.
-        """
-        self._errand, self._full = errand, False
+    def begin(self, observation: Any) -> None:
+        """Open the eyes in a new world, of which nothing is known; the frame begins with where it faces."""
         self._known.clear()
         self._known.key = -1
         self._sizes = Sizes()
@@ -98,7 +89,6 @@ class MiniGridBody:
         """Look round once, at all walls."""
         begin = self.steps
         self._look(range(4))
-        self._run_errand()
         return self._percept(None, begin)
 
     def look(self, ways: Iterable[int]) -> Percept:
@@ -114,9 +104,6 @@ class MiniGridBody:
         outcome = "unsure" if self._confused else self._through(way, limit)
         if outcome == "arrived":
             self._arrive(self.steps - begin)
-            if self._survey:
-                self._look(range(4))
-        self._run_errand()
         return self._percept(outcome, begin)
 
     def settle(self, floor: int) -> Percept:
@@ -140,6 +127,19 @@ class MiniGridBody:
         return (min(near) if near else turns) + self._far
 
     # -- what is seen --------------------------------------------------------------------------------------
+
+    def _targets(self, now: Outlook, ways: Iterable[int]) -> frozenset[mg.Tile]:
+        """The tiles that have to be looked at before it is known whether these ways are open."""
+        return frozenset[mg.Tile]().union(*map(now.needed.__getitem__, ways))
+
+    def _exits(self, now: Outlook, way: int) -> set[mg.Tile]:
+        """The doors and gaps of a way."""
+        return set(now.exits[way])
+
+    @property
+    def _called(self) -> bool:
+        """Whether something comes before what it is told to do."""
+        return False
 
     def _outlook(self) -> Outlook:
         return outlook(self._known, self._seed, self._sizes, self._given_up)
@@ -180,8 +180,8 @@ class MiniGridBody:
         before, meant = frozenset[mg.Tile](), self.pose
         for _ in range(_LOOKS):
             now = self._outlook()
-            targets = frozenset[mg.Tile]().union(*(now.unknown if self._survey else map(now.needed.__getitem__, ways)))
-            if self._wanted() is not None or not targets or self.ended or self._confused:
+            targets = self._targets(now, ways)
+            if not targets or self.ended or self._confused or self._called:
                 return
             if plan and targets == before and self.pose == meant:
                 meant = moved(self.pose, plan[0], self._known)
@@ -234,17 +234,17 @@ class MiniGridBody:
     def _through(self, way: int, limit: int) -> str:
         """Follow the passage of a way to the floor beyond."""
         now = self._outlook()
-        room, exits = now.room, set(now.exits[way])
+        room, exits = now.room, self._exits(now, way)
         left: set[mg.Tile] = set()  # what was tried in vain
         waited = 0
         while self.steps < limit and not self.ended:
-            if self._confused or self._wanted():
+            if self._confused or self._called:
                 return "unsure"
             here = self.pose[:2]
             if here not in room and not self._known.narrow(here) and self._where.certainty >= SURE:
                 return "arrived"
             if not exits:
-                exits = set(self._outlook().exits[way]) - left
+                exits = self._exits(self._outlook(), way) - left
             beyond = self._beyond(exits, room)
             goal = self._next(beyond, room)
             plan = None if goal is None else route(self.pose, self._known, [goal], within=room | beyond)
@@ -256,87 +256,14 @@ class MiniGridBody:
             elif plan is not None:
                 left |= exits
                 exits = set()
-            elif not self._clear(beyond | exits, room):
+            elif not self._make_way(beyond | exits, room):
                 self._barred |= exits
                 return "blocked"
         return "unsure"
 
-    def _wanted(self) -> list[int] | None:
-        """The actions to what the errand is about, the last one included, if that was seen and can be reached.
-
-        Where a locked door stands in the way and its key lies in reach, that comes first.
-        """
-        if self._errand is None or self.ended:
-            return None
-        words, known, errand = vocabulary(), self._known, self._errand
-        final = {"pickup": [PICKUP], "toggle": [TOGGLE], None: [] if errand.upon else [NOTHING]}[errand.action]
-        plan = self._towards(errand.wanted, upon=errand.upon)
-        if plan is not None:
-            carries = self._full and errand.action == "pickup"
-            return self._put_down() if carries and TOGGLE not in plan else plan + final
-        if self._full:
-            return None
-        barred = {int(colour) for colour in words.locked[known.tile[known.masks().known]] if colour >= 0}
-        for colour in sorted(barred):
-            plan = self._towards(words.key[:-1] == colour, upon=False)
-            if plan is not None:
-                return [*plan, PICKUP]
-        return None
-
-    def _towards(self, wanted: NDArray[np.bool_], *, upon: bool) -> list[int] | None:
-        """The way to the nearest tile of some kinds: upon it, or before it and looking at it; None if there is none."""
-        tiles, masks = self._known.tile, self._known.masks()
-        found = [(x, y) for y, x in np.argwhere((tiles >= 0) & wanted[tiles]).tolist()]
-        goals: list[Any] = [
-            tile if upon else (tile[0] - dx, tile[1] - dy, heading)
-            for tile in found
-            for heading, (dx, dy) in enumerate(mg.AHEAD)
-        ]
-        within = {(x, y) for y, x in np.argwhere(masks.free | masks.shut).tolist()}
-        return route(self.pose, self._known, goals, within=within if upon else within - set(found)) if goals else None
-
-    def _put_down(self) -> list[int]:
-        """Put down what is carried, where there is room for it."""
-        ahead = self._in_front()
-        return [DROP] if self._known.free(ahead) and not self._known.narrow(ahead) else [LEFT]
-
-    def _in_front(self) -> mg.Tile:
-        x, y, heading = self.pose
-        return x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]
-
-    def _run_errand(self) -> None:
-        """Go where it is wanted, and do what is to be done there."""
-        for _ in range(_TRIES):
-            plan = self._wanted()
-            if not plan or self.ended or self._confused:
-                return
-            self._handle(plan[0])
-            if plan == [NOTHING] and not self.ended:  # it is there, and nobody says so
-                self._errand = None
-
-    def _clear(self, beyond: set[mg.Tile], room: frozenset[mg.Tile]) -> bool:
-        """Take up a thing that lies in a passage, if there is an errand to be run and the hands are free."""
-        words, tiles = vocabulary(), self._known.tile
-        if self._errand is None or self._full:
-            return False
-        beside = {other for tile in beyond for _, other in around(tile)} - room
-        things = [(x, y) for x, y in beside if words.thing[tiles[y, x]]]
-        goals = [(x - dx, y - dy, heading) for x, y in things for heading, (dx, dy) in enumerate(mg.AHEAD)]
-        plan = route(self.pose, self._known, goals, within=(room | beyond) - set(things)) if goals else None
-        if plan is None:
-            return False
-        self._handle(plan[0] if plan else PICKUP)
-        return True
-
-    def _handle(self, action: int) -> None:
-        """Act, and note what is carried then."""
-        ahead = self._in_front()
-        key = int(vocabulary().key[self._known.tile[ahead[1], ahead[0]]])
-        self._act(action)
-        if action == PICKUP and self._known.free(ahead):
-            self._full, self._known.key = True, key
-        elif action == DROP:
-            self._full, self._known.key = False, -1
+    def _make_way(self, beyond: set[mg.Tile], room: frozenset[mg.Tile]) -> bool:
+        """Do something about what stands in a passage; whether anything was done."""
+        return False
 
     def _into_the_unknown(self) -> int:
         """Turn to a tile of which nothing is known, and go there: who is not sure where it is has learned nothing."""
@@ -370,16 +297,6 @@ class MiniGridBody:
 
     def _open_ended(self, tile: mg.Tile) -> bool:
         return any(not self._known.known(other) for _, other in around(tile))
-
-    @property
-    def room(self) -> str:
-        """What can be told of the room, in words: its size, colour of floor, and what lies in it."""
-        now, words = self._outlook(), vocabulary()
-        xs, ys = {x for x, _ in now.room}, {y for _, y in now.room}
-        beside = {other for tile in now.room for _, other in around(tile)}
-        kinds = {int(self._known.tile[y, x]) for x, y in beside}
-        things = sorted("-".join(map(str, words.codes[k, :2])) for k in kinds if k >= 0 and words.thing[k])
-        return " ".join([f"{len(xs)}x{len(ys)}", str(self._sight(now)), *things])
 
     def _room(self, tile: mg.Tile) -> frozenset[mg.Tile]:
         return outlook(self._known, tile, self._sizes, ()).room

@@ -19,6 +19,7 @@ class Percept:
         outcome: of the move: arrived, blocked or unsure; None of none.
         steps: low-level steps that it took.
         displacement, turn: as measured; None where that cannot be told.
+        moved: it has gone elsewhere besides, on business of its own.
     """
 
     sight: Hashable | Mapping[Any, float] | None
@@ -27,6 +28,7 @@ class Percept:
     steps: int = 0
     displacement: tuple[float, ...] | None = None
     turn: float | None = None
+    moved: bool = False
 
 
 @runtime_checkable

@@ -11,13 +11,12 @@ import numpy as np
 from gymnasium import spaces
 from minigrid.minigrid_env import MiniGridEnv
 
-from ..model import UNSEEN
-from ..worlds import GRID, Motions, Observation, WorldError
+from ..worlds import Motions, Observation, WorldError
 from ..worlds import minigrid as mg
 from .errand import errand_of
-from .minigrid import MiniGridBody
+from .roaming import DOORS, RoamingBody
 
-_WAYS = ("right", "down", "left", "up")
+_STAY = DOORS
 VIEWS = ("symbolic", "rgb")
 
 
@@ -37,10 +36,11 @@ class PixelView(gym.ObservationWrapper[Any, Any, Any]):
 
 
 class RegisteredWorld(gym.Env[Observation, Any]):
-    """An environment of MiniGrid by its id. Rooms are chunks of space bounded by doors and gaps; their ways are four.
+    """An environment of MiniGrid by its id. Rooms are chunks of space bounded by doors and gaps, which are their ways.
 
-    Nothing is known of how its rooms lie to each other: actions have no displacements. The sight is what can be told of
-    the room: size, floor, things. `info` has `low_level_steps` and `reached`, whether the environment gave a reward.
+    Nothing is known of how its rooms lie to each other: actions have no displacements, but a door leads back. The sight
+    is which of the rooms that the body has been in this is. `info` has `low_level_steps` and `reached`, whether the
+    environment gave a reward.
 
     Args:
         name: of the environment.
@@ -52,7 +52,7 @@ class RegisteredWorld(gym.Env[Observation, Any]):
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # pyright: ignore[reportIncompatibleVariableOverride]
-    motions = Motions(GRID.names, (), GRID.reverse)
+    motions = Motions((*(f"door {n}" for n in range(DOORS)), "stay"), (), tuple(range(DOORS + 1)))
 
     def __init__(self, name: str, *, view: str | None = None, errand: bool = False) -> None:
         view = view or "symbolic"
@@ -65,10 +65,10 @@ class RegisteredWorld(gym.Env[Observation, Any]):
         if not isinstance(env.unwrapped, MiniGridEnv):
             raise WorldError(f"{name!r} is no world of MiniGrid; a body of this library lives in no other")
         self.name, self.env = name, PixelView(env) if view == "rgb" else env
-        self.body, self._errand = MiniGridBody(self.env, survey=True), errand
-        self.action_space = spaces.Discrete(len(GRID.names))
+        self.body, self._errand = RoamingBody(self.env), errand
+        self.action_space = spaces.Discrete(DOORS + 1)
         text = spaces.Text(200)
-        self.observation_space = spaces.Dict({"sight": text, "open": spaces.MultiBinary(len(GRID.names))})
+        self.observation_space = spaces.Dict({"sight": text, "open": spaces.MultiBinary(DOORS + 1)})
         self.rooms_seen = 0
 
     @property
@@ -90,15 +90,17 @@ class RegisteredWorld(gym.Env[Observation, Any]):
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Go through a way."""
-        before, name = self.body.reward, GRID.names[int(action)]
+        before = self.body.reward
         if not self.body.ended:
-            self._percept = self.body.wake() if name == "stay" else self.body.perform(_WAYS.index(name))
+            self._percept = self.body.stay() if action == _STAY else self.body.perform(int(action))
         return self._observation(), self.body.reward - before, self.body.ended, False, self._info()
 
     def _observation(self) -> Observation:
-        ways = {_WAYS[way]: is_open for way, is_open in self._percept.ways.items()}
-        seen: Observation = {"sight": self.body.room or UNSEEN, "open": [ways.get(n, True) for n in GRID.names]}
-        return seen if self._percept.outcome is None else {**seen, "outcome": self._percept.outcome}
+        told, ways = self._percept, [self._percept.ways[way] for way in range(DOORS)]
+        seen: Observation = {"sight": self.body.room, "open": [*ways, True]}
+        if told.moved:
+            return {**seen, "moved": True}
+        return seen if told.outcome is None else {**seen, "outcome": told.outcome}
 
     def _info(self) -> dict[str, Any]:
         return {"low_level_steps": self.body.steps, "reached": self.body.reward > 0.0}

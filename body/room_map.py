@@ -113,6 +113,7 @@ class RoomMap:
 
     def unlearn(self, tile: mg.Tile) -> None:
         """Forget a tile that has been changed."""
+        self._stood.discard(tile)
         self._evidence[tile[1], tile[0]] = 0.0
         self.tile[tile[1], tile[0]] = UNKNOWN
         self._masks = None

@@ -8,11 +8,19 @@ from itertools import count
 
 from ..worlds import minigrid as mg
 from .room_map import Pose, RoomMap
-from .whereabouts import FORWARD, LEFT, RIGHT, TOGGLE
+from .whereabouts import FORWARD, LEFT, PICKUP, RIGHT, TOGGLE
+
+LIFTING = 8
+"""Steps that it is worth to go round a thing rather than to take it out of the way."""
 
 
 def route(
-    start: Pose, known: RoomMap, goals: Collection[mg.Tile | Pose], *, within: Collection[mg.Tile]
+    start: Pose,
+    known: RoomMap,
+    goals: Collection[mg.Tile | Pose],
+    *,
+    within: Collection[mg.Tile],
+    lift: Collection[mg.Tile] = (),
 ) -> list[int] | None:
     """The actions of a shortest way to one of some tiles or poses; None where there is none.
 
@@ -21,6 +29,7 @@ def route(
         known: the tiles.
         goals: where to be.
         within: the tiles that may be stepped on; closed doors are opened.
+        lift: tiles of things that may be taken out of the way, which costs as much as `LIFTING` steps.
     """
     order, best = count(), {start: 0}
     before: dict[Pose, tuple[Pose, tuple[int, ...]]] = {}
@@ -42,10 +51,13 @@ def route(
                 moves.insert(0, ((*ahead, heading), (FORWARD,)))
             elif known.shut(ahead):
                 moves.insert(0, ((*ahead, heading), (TOGGLE, FORWARD)))
+        if ahead in lift:
+            moves.append(((*ahead, heading), (PICKUP, FORWARD)))
         for new, actions in moves:
-            if steps + len(actions) < best.get(new, 1 << 30):
-                best[new], before[new] = steps + len(actions), (pose, actions)
-                heapq.heappush(queue, (best[new], next(order), new))
+            cost = steps + len(actions) + LIFTING * (PICKUP in actions)
+            if cost < best.get(new, 1 << 30):
+                best[new], before[new] = cost, (pose, actions)
+                heapq.heappush(queue, (cost, next(order), new))
     return None
 
 

@@ -134,10 +134,10 @@ class Parts:
         return {"frontier": FrontierAgent, "random": RandomAgent}[self.agent](motions, seed=seed)
 
     def _pose(self, world: Any, motions: Motions) -> Pose | None:
-        """The pose that was asked for; a lattice only where actions have displacements, a plane where moves do."""
-        measured = not motions.displacements and "displacement" in _observed(world)
+        """The pose that was asked for; a lattice where actions have displacements, a plane where moves or ways do."""
+        measured = not motions.displacements and bool({"displacement", "bearings"} & {*_observed(world)})
         if self.pose == "plane" and not measured:
-            raise CogmapError("pose plane needs a world that tells the displacement of each move; use --pose none")
+            raise CogmapError("pose plane needs a world that tells displacements or bearings; use --pose none")
         if self.pose == "lattice" and not motions.displacements:
             raise CogmapError(
                 "pose lattice needs actions with displacements; declare graph.motions, or use --pose none"

@@ -31,6 +31,7 @@ class IdRun(Record):
         low_level_steps: of the body.
         rooms: places of the map that were visited.
         explored: whether at the end no way was left that was seen open and not walked.
+        barred: what the body could not get past, in words.
     """
 
     seed: int
@@ -39,6 +40,7 @@ class IdRun(Record):
     low_level_steps: int
     rooms: int
     explored: bool
+    barred: tuple[str, ...] = ()
 
 
 def is_registered(world: str) -> bool:
@@ -78,13 +80,13 @@ def run_id(
     begin = world.reset(seed=seed)
 
     def watch(moment: Moment) -> bool:
-        return world.body.ended or (not errand and _nothing_left(agent))
+        return world.body.ended or (not errand and _nothing_left(agent) and not world.body.pending)
 
     steps = 0
     if not world.body.ended:
         steps = run(world, agent, steps=max_steps or MOVES, begin=begin, watch=watch).observations
     low, reached = world.low_level_steps, world.body.reward > 0.0
-    return IdRun(seed, reached, steps, low, int(agent.map.visited.sum()), _nothing_left(agent))
+    return IdRun(seed, reached, steps, low, int(agent.map.visited.sum()), _nothing_left(agent), world.body.bars)
 
 
 def run_ids(name: str, *, runs: int, seed: int = 0, **options: Any) -> list[IdRun]:

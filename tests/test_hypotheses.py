@@ -13,7 +13,18 @@ from cogmap.inference.hypotheses.chances import Chances
 from cogmap.inference.hypotheses.evidence import probability, same_door, way_odds
 from cogmap.inference.hypotheses.layered import Layered
 from cogmap.inference.hypotheses.pruning import alike
-from cogmap.inference.hypotheses.rates import MOVED, RATE_PRIORS, SQUARE, RateCounts, crp_evidence, crp_predictive
+from cogmap.inference.hypotheses.rates import (
+    ASTRAY,
+    BLAMED,
+    FAILS,
+    MOVED,
+    RATE_PRIORS,
+    SQUARE,
+    STAYED,
+    RateCounts,
+    crp_evidence,
+    crp_predictive,
+)
 from cogmap.inference.hypotheses.squares import across, tally
 from cogmap.inference.hypotheses.straightening import straightened
 from cogmap.inference.hypotheses.weighing import door_evidence
@@ -85,6 +96,21 @@ def test_what_is_expected_of_a_rate_is_the_integral_over_its_prior(prior, yes, n
 
     assert prior.log_evidence(yes, no) == pytest.approx(log(integral(0.0)), abs=1e-5)
     assert prior.mean(yes, no) == pytest.approx(integral(1.0) / integral(0.0), rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("seen", "failed"), [(0.0, (0.24, 0.28)), (30.0, (0.0, 0.01))], ids=["never elsewhere", "elsewhere as often"]
+)
+def test_what_did_not_lead_on_is_blamed_on_the_rate_that_explains_all_of_it(seen, failed):
+    """100 of 400 moves did not lead on, in corridors: of other actions three in four would not have either."""
+    counts = RateCounts()
+    counts.yes[STAYED], counts.no[STAYED] = 100.0, 75.0
+    counts.no[FAILS], counts.yes[ASTRAY], counts.no[ASTRAY] = 300.0, seen, 300.0 - seen
+    counts.yes[BLAMED] = 1.0 if seen else 0.0  # whatever was thought of first
+    counts.blame()
+    assert failed[0] <= counts.mean(FAILS) <= failed[1]
+    assert counts.mean(ASTRAY) == pytest.approx((seen + 100.0) / 400.0 if seen else 0.0, abs=0.02)
+    assert sum(counts.of(ASTRAY)) == pytest.approx(400.0)
 
 
 @given(st.lists(st.integers(0, 4), min_size=1, max_size=12))

@@ -55,9 +55,11 @@ def _one(result: dict[str, Any]) -> list[str]:
     took = f"{count(run['steps'], 'step')}, {count(run['low_level_steps'], 'low-level step')}"
     rooms = count(run["rooms"], "room")
     if result["errand"]:
-        return [f"mission {'fulfilled' if run['reached'] else 'not fulfilled'} after {took}, {rooms}"]
-    left = "nothing left to explore" if run["explored"] else "not all explored"
-    return [f"{rooms} visited in {took}; {left}"]
+        told = f"mission {'fulfilled' if run['reached'] else 'not fulfilled'} after {took}, {rooms}"
+    else:
+        left = "nothing left to explore" if run["explored"] else "not all explored"
+        told = f"{rooms} visited in {took}; {left}"
+    return [told, *(f"in its way: {what}" for what in run["barred"])]
 
 
 def _many(result: dict[str, Any]) -> list[str]:

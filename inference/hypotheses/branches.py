@@ -40,7 +40,8 @@ class Alternative(NamedTuple):
         way: the way that was walked; `NOWHERE` if none was.
         to: the place the agent is in now; `NOWHERE` for one never seen.
         charted: the new place is where the pose says.
-        astray, failed, moved: posterior probabilities that this is how it happened.
+        astray, failed, moved: posterior probabilities that this is how it happened; where a move did not lead on and
+            nothing says why, only the last is counted (`RateCounts.blame` says the others).
         crowd: where the agent may be, with log probabilities, in one map; None where that is `to`.
     """
 
@@ -140,7 +141,7 @@ class Walker:
         action, fails = self.sensed.action, self.fails
         self.arrived.add(self.h.here)
         stays = [1.0 - self.open(way) * (1.0 - fails) for way in range(self.h.scheme.count)]
-        lost = each * (1.0 + sum(p for way, p in enumerate(stays) if way != action))
+        lost = each * ((action is not None) + sum(p for way, p in enumerate(stays) if way != action))
         given = (1.0 - astray) * (1.0 if action is None else stays[action])
         failed = 0.0 if action is None else (1.0 - astray) * self.open(action) * fails
         put_here = exp(self.put_there + self.h.weight - before)

@@ -8,7 +8,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_probability, odds_beyond, probability, same_door, was_rebuilt
+from .evidence import label_probability, odds_beyond, probability, same_door, was_rebuilt, way_odds
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -27,11 +27,11 @@ def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> Non
     here, to, lost = h.here, branch.to, h.crowd is not None
     h.weight, h.crowd = branch.weight, branch.crowd
     if not sensed.told and not lost:
-        _count_how(h, branch)
+        _count_how(h, branch, sensed)
     if branch.crowd is not None:
         h.here = to
         return
-    if branch.way == NOWHERE and to == here and not sensed.told and not lost:
+    if stays := branch.way == NOWHERE and to == here and not sensed.told and not lost:
         _bump(h, branch, sensed)
     if to == NOWHERE:
         to = time
@@ -42,6 +42,8 @@ def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> Non
     if branch.way != NOWHERE:
         _walk(h, here, branch.way, to, branch)
     _look(h, to, sensed, time)
+    if stays:
+        h.counts.blame()
 
 
 def _place_new(h: Hypothesis, number: int, *, frame: int, position: tuple[int, ...]) -> None:
@@ -50,15 +52,22 @@ def _place_new(h: Hypothesis, number: int, *, frame: int, position: tuple[int, .
     h.put(number, Place(sights, (Way(),) * scheme.count, frame, position, (), frozenset(), Share()))
 
 
-def _count_how(h: Hypothesis, branch: Alternative) -> None:
+def _count_how(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
     yes, no = h.counts.yes, h.counts.no
     kept = 1.0 - branch.moved
     yes[MOVED] += branch.moved
     no[MOVED] += kept
+    if branch.way == NOWHERE and branch.to == h.here and _unexplained(sensed):
+        return
     yes[ASTRAY] += branch.astray
     no[ASTRAY] += kept - branch.astray
     yes[FAILS] += branch.failed
     no[FAILS] += kept * (branch.way != NOWHERE)
+
+
+def _unexplained(sensed: Sensed) -> bool:
+    """Whether nothing says why a move did not lead on."""
+    return sensed.action is not None and not sensed.certain and not sensed.fails
 
 
 def _bump(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
@@ -71,7 +80,8 @@ def _bump(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
     worth = log((given * max(chances.fails, sensed.fails) + lost) / (given + lost)) / chances.unit
     known = place.ways[way]
     net = max(known.net + worth, -chances.most)
-    h.put(h.here, with_way(place, way, Way(net, known.open, known.blocked, known.walks, known.to)))
+    stays = known.stays + (1.0 - branch.moved) * _unexplained(sensed)
+    h.put(h.here, with_way(place, way, known._replace(net=net, stays=stays)))
 
 
 def with_way(place: Place, index: int, way: Way) -> Place:
@@ -98,13 +108,13 @@ def _lead(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         h.counts.no[RELINKED] += (way.to == to) / (way.walks * way.walks)
     if way.to not in (NOWHERE, to):
         _relink(h, here, index, to, branch)
-        way = Way(way.net, way.open, way.blocked)
+        way = way._replace(walks=0, to=NOWHERE)
     elif way.to == NOWHERE:
         _count_link(h, place, index, to, branch)
     if not way.walks and h.scheme.inverse is None:
         _count_returns(h, place, index, to)
     net = max(way.net, h.chances.most)
-    walked = Way(net, way.open, way.blocked, way.walks + 1, to)
+    walked = Way(net, way.open, way.blocked, way.walks + 1, to, way.stays)
     if to == here or (here, index) not in h.places[to].into:
         h.put(here, with_way(h.places[here], index, walked))
         _arrive(h, here, index, to)
@@ -147,7 +157,7 @@ def _arrive(h: Hypothesis, here: int, index: int, to: int) -> None:
     if h.scheme.inverse is not None:
         back = h.scheme.inverse[index]
         if ways[back].to == NOWHERE:
-            ways = (*ways[:back], Way(*ways[back][:4], here), *ways[back + 1 :])
+            ways = (*ways[:back], ways[back]._replace(to=here), *ways[back + 1 :])
         elif ways[back].walks:
             led_back = ways[back].to == here
             h.counts.yes[UNDONE] += led_back and (here, index) not in place.into
@@ -164,7 +174,7 @@ def unlink(h: Hypothesis, here: int, index: int, way: Way) -> None:
     if h.scheme.inverse is not None:
         back = h.scheme.inverse[index]
         if ways[back].to == here and not ways[back].walks:
-            ways = (*ways[:back], Way(*ways[back][:4], NOWHERE), *ways[back + 1 :])
+            ways = (*ways[:back], ways[back]._replace(to=NOWHERE), *ways[back + 1 :])
     into = old.into - {(here, index)}
     h.put(way.to, Place(old.sights, ways, old.frame, old.position, old.recent, into, old.share))
 
@@ -199,7 +209,9 @@ def _look(h: Hypothesis, number: int, sensed: Sensed, time: int) -> None:
     )
     rebuilt = bool(place.recent) and was_rebuilt(h, number, place, sensed)
     ways = tuple(
-        way if reading is None else _read(h, way._replace(net=0.0, open=0.0, blocked=0.0) if rebuilt else way, reading)
+        way
+        if reading is None
+        else _read(h, way._replace(net=0.0, open=0.0, blocked=0.0, stays=0.0) if rebuilt else way, reading)
         for way, reading in zip(place.ways, sensed.ways, strict=True)
     )
     if not place.recent:
@@ -259,7 +271,7 @@ def _read(h: Hypothesis, way: Way, reading: float) -> Way:
     h.counts.no[CHANGED] += not changed
     if changed:
         opened, blocked = max(net, 0.0), max(-net, 0.0)
-    return Way(net, opened, blocked, way.walks, way.to)
+    return Way(net, opened, blocked, way.walks, way.to, 0.0 if changed else way.stays)
 
 
 def _worth(chances: Chances, reading: float) -> float:
@@ -301,5 +313,19 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
             p = label_probability(chances, sensor, counts, label)
             misread += count * (1.0 - p)
             read += count * p
-    share = Share(opened, blocked, wrong, right, misread, read, beside, shut, undone, one_way)
+    stayed = _stayed(h, number, place) if any(way.stays for way in place.ways) else (0.0, 0.0)
+    share = Share(opened, blocked, wrong, right, misread, read, beside, shut, undone, one_way, *stayed)
     return Place(place.sights, place.ways, place.frame, place.position, place.recent, place.into, share)
+
+
+def _stayed(h: Hypothesis, number: int, place: Place) -> tuple[float, float]:
+    """Moves through open ways of a place that did not lead on, and the share of other actions that would not either."""
+    count, leads_on = h.scheme.count, 1.0 - h.chances.fails
+    opened = [probability(way_odds(h, number, place, way)) for way in range(count)]
+    stays = [1.0 - p * leads_on for p in opened]
+    stayed = strayed = 0.0
+    for way, known in enumerate(place.ways):
+        failed = known.stays * opened[way]
+        stayed += failed
+        strayed += failed * (1.0 + sum(stays) - stays[way]) / count
+    return stayed, strayed

@@ -7,10 +7,9 @@ from collections.abc import Iterator
 from .extending import shared
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, ELSEWHERE, MEETING, MOVED, NEW, SQUARE, UNDONE
-from .records import NOWHERE, Place, Way
+from .records import NOWHERE, Place
 from .uniting import ContradictionError, Union
 from .weighing import Links, scored
-
 
 MORE = 12.0
 """Nats that what is scored last may gain at most: fewer places, fewer ways."""
@@ -125,7 +124,7 @@ def _resolved(united: Union, number: int) -> Place:
     place, find = united.view(number), united.find
     most = united.h.chances.most
     ways = [
-        Way(min(max(way.net, -most), most), *way[1:4], find(way.to) if way.to != NOWHERE else NOWHERE)
+        way._replace(net=min(max(way.net, -most), most), to=find(way.to) if way.to != NOWHERE else NOWHERE)
         for way in place.ways
     ]
     into = frozenset((find(source), index) for source, index in place.into)
@@ -134,5 +133,5 @@ def _resolved(united: Union, number: int) -> Place:
         for source, index in into:
             back = inverse[index]
             if ways[back].to == NOWHERE:
-                ways[back] = Way(*ways[back][:4], source)
+                ways[back] = ways[back]._replace(to=source)
     return Place(place.sights, tuple(ways), place.frame, place.position, place.recent, into, place.share)

@@ -8,14 +8,15 @@ from operator import add
 from ...model import Periods, reduced
 from .chances import Chances
 from .layered import Layered
-from .rates import BESIDE, OPEN, SIGHT_MISREAD, UNDONE, WAY_MISREAD, RateCounts
+from .rates import BESIDE, OPEN, SIGHT_MISREAD, STAYED, UNDONE, WAY_MISREAD, RateCounts
 from .records import NOWHERE, Place, Position, Share
 from .scheme import WayScheme
 from .squares import across
 
 SHARES = (
     (OPEN, True), (OPEN, False), (WAY_MISREAD, True), (WAY_MISREAD, False), (SIGHT_MISREAD, True),
-    (SIGHT_MISREAD, False), (BESIDE, True), (BESIDE, False), (UNDONE, True), (UNDONE, False),
+    (SIGHT_MISREAD, False), (BESIDE, True), (BESIDE, False), (UNDONE, True), (UNDONE, False), (STAYED, True),
+    (STAYED, False),
 )  # fmt: skip
 """Which rate each part of a share counts for, and whether as true."""
 

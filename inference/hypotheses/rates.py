@@ -84,23 +84,42 @@ RATE_PRIORS = (
     _beta("meeting", 0.5, 9.5, "one action leads from two places into one (where it is not known what undoes what)"),
     _beta("square", 0.5, 0.5, "two actions lead to the same place in either order (without poses)"),
 )
-"""Every rate, in the order of `RateCounts`."""
+"""Every rate, in the order of `RateCounts`; behind them stand two rows of other counts."""
 
 OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE = range(7)
 UNDONE, CHANGED, BESIDE, NEW, RELINKED, MEETING, SQUARE = range(7, len(RATE_PRIORS))
+
+STAYED, BLAMED = len(RATE_PRIORS), len(RATE_PRIORS) + 1
+"""Moves through open ways that did not lead on (and, as `no`, the share of other actions that would not have either,
+summed over these moves); and the share of them that failed (as `yes`), as is expected."""
+
+ROWS = len(RATE_PRIORS) + 2
+"""Rows of counts."""
 
 CONCENTRATIONS = (0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
 """Concentrations of the Chinese restaurant process that are weighed against each other, evenly before any place."""
 
 
+SPLITS = tuple(k / 12.0 for k in range(13))
+"""Shares of moves that did not lead on that are weighed."""
+
+TRACE = 1e-6
+"""Counts below this are what is left of others by rounding."""
+
+
 class RateCounts:
-    """How often each rate was found true or false; soft counts are posterior probabilities."""
+    """How often each rate was found true or false; soft counts are posterior probabilities.
+
+    Of a move that did not lead on nothing says whether it failed or another action was carried out. Such moves are
+    counted apart, and with each of them all are shared out anew by what is known of both rates by then: shared out once
+    as they happen, they would stay with the rate that was thought of first.
+    """
 
     __slots__ = ("no", "yes")
 
     def __init__(self, yes: Sequence[float] | None = None, no: Sequence[float] | None = None) -> None:
-        self.yes = list(yes) if yes is not None else [0.0] * len(RATE_PRIORS)
-        self.no = list(no) if no is not None else [0.0] * len(RATE_PRIORS)
+        self.yes = list(yes) if yes is not None else [0.0] * ROWS
+        self.no = list(no) if no is not None else [0.0] * ROWS
 
     def copy(self) -> RateCounts:
         """Counts of their own."""
@@ -108,7 +127,41 @@ class RateCounts:
 
     def mean(self, rate: int) -> float:
         """Posterior mean of one rate."""
-        return RATE_PRIORS[rate].mean(max(self.yes[rate], 0.0), max(self.no[rate], 0.0))
+        return RATE_PRIORS[rate].mean(*self.of(rate))
+
+    def of(self, rate: int) -> tuple[float, float]:
+        """How often a rate was found true, and false."""
+        yes, no = self.yes[rate], self.no[rate]
+        if rate == FAILS:
+            yes += self.yes[STAYED] * self.yes[BLAMED]
+        elif rate == ASTRAY:
+            yes += self.yes[STAYED] * (1.0 - self.yes[BLAMED])
+            no += self.yes[STAYED] * self.yes[BLAMED]
+        return max(yes, 0.0), max(no, 0.0)
+
+    def blame(self) -> None:
+        """Share out the moves that did not lead on, by what all of them, and all others, say of both rates.
+
+            P(k of n failed) ∝ (n over k) s^(n - k) P(k fails, other moves) P(n - k astray, other moves)
+
+        where s is the share of other actions that would not have led on. A few k stand for all.
+        """
+        n, fails, astray = self.yes[STAYED], RATE_PRIORS[FAILS], RATE_PRIORS[ASTRAY]
+        if n < TRACE:
+            return
+        yes, no = (
+            (max(self.yes[FAILS], 0.0), max(self.yes[ASTRAY], 0.0)),
+            (max(self.no[FAILS], 0.0), max(self.no[ASTRAY], 0.0)),
+        )
+        other = log(self.no[STAYED] / n)
+        logs = [
+            (n - k) * other - lgamma(k + 1.0) - lgamma(n - k + 1.0)
+            + fails.log_evidence(yes[0] + k, no[0]) + astray.log_evidence(yes[1] + n - k, no[1] + k)
+            for k in (share * n for share in SPLITS)
+        ]  # fmt: skip
+        most = max(logs)
+        weights = [exp(value - most) for value in logs]
+        self.yes[BLAMED] = sum(share * w for share, w in zip(SPLITS, weights, strict=True)) / sum(weights)
 
 
 def log_beta_evidence(a: float, b: float, yes: float, no: float) -> float:

@@ -61,10 +61,7 @@ def ways_misread(h: Hypothesis) -> float:
 def rates_of(h: Hypothesis) -> list[RateOf]:
     """Every rate, in the order in which they are declared."""
     counts = h.counts
-    return [
-        RateOf(prior.name, prior.meaning, counts.mean(k), max(counts.yes[k], 0.0), max(counts.no[k], 0.0))
-        for k, prior in enumerate(RATE_PRIORS)
-    ]
+    return [RateOf(prior.name, prior.meaning, counts.mean(k), *counts.of(k)) for k, prior in enumerate(RATE_PRIORS)]
 
 
 def readings_of(shares: Mapping[int, float], labels: int, *, sure: float) -> SightCounts:

@@ -38,6 +38,9 @@ class Part(NamedTuple):
     shift: Position = ()
 
 
+WHOLE = Part()
+
+
 def recharted(h: Hypothesis, number: int, *, floor: float) -> Iterator[Hypothesis]:
     """Hypotheses in which the ways of a place lead where the chart says; those below `floor` are left out.
 
@@ -59,7 +62,7 @@ def recharted(h: Hypothesis, number: int, *, floor: float) -> Iterator[Hypothesi
                     yield other
 
 
-def _off(h: Hypothesis, link: Link, part: Part = Part()) -> bool:
+def _off(h: Hypothesis, link: Link, part: Part = WHOLE) -> bool:
     """Whether a link leads where the chart does not say, with a part of it laid elsewhere."""
     place, there = h.places[link.number], h.places[link.to]
     assert h.scheme.displacements is not None
@@ -248,7 +251,7 @@ def _cut(h: Hypothesis, link: Link) -> None:
     beside = h.beside(place, link.way)
     back = Way() if beside == NOWHERE else h.places[beside].ways[h.scheme.inverse[link.way]]
     to = beside if back.walks and back.to == link.number else NOWHERE
-    h.put(link.number, with_way(place, link.way, Way(way.net, way.open, way.blocked, 0, to)))
+    h.put(link.number, with_way(place, link.way, way._replace(walks=0, to=to)))
     h.links -= 1
 
 

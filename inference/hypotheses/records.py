@@ -24,6 +24,7 @@ class Way(NamedTuple):
         blocked: times it was read as blocked since then.
         walks: times it was walked.
         to: the place it leads to, or `NOWHERE`; with no walk it is known from the way back.
+        stays: times the agent was to take it and stayed where it was, where nothing says why.
     """
 
     net: float = 0.0
@@ -31,10 +32,15 @@ class Way(NamedTuple):
     blocked: float = 0.0
     walks: int = 0
     to: int = NOWHERE
+    stays: float = 0.0
 
 
 class Share(NamedTuple):
-    """What a place adds to the counts of the rates: expected numbers, given what is believed of it."""
+    """What a place adds to the counts of the rates: expected numbers, given what is believed of it.
+
+    `stayed` are the times that the agent did not get through a way that was open, and `strayed` the share of other
+    actions that would have kept it there, summed over these.
+    """
 
     open: float = 0.0
     blocked: float = 0.0
@@ -46,6 +52,8 @@ class Share(NamedTuple):
     beside_blocked: float = 0.0
     undone: float = 0.0
     one_way: float = 0.0
+    stayed: float = 0.0
+    strayed: float = 0.0
 
 
 class Place(NamedTuple):

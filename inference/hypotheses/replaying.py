@@ -192,7 +192,9 @@ def _remove(h: Hypothesis, numbers: Collection[int]) -> None:
     for number in sorted(touched - set(numbers)):
         place = h.places[number]
         ways = tuple(
-            Way(way.net if way.open + way.blocked else 0.0, way.open, way.blocked) if way.to in numbers else way
+            Way(way.net if way.open + way.blocked else 0.0, way.open, way.blocked, stays=way.stays)
+            if way.to in numbers
+            else way
             for way in place.ways
         )
         into = frozenset(source for source in place.into if source[0] not in numbers)

@@ -17,8 +17,8 @@ from .hypothesis import Hypothesis, digest
 from .layered import Layered, Shared
 from .lookback import Past
 from .options import Change
-from .rates import RATE_PRIORS, RateCounts
-from .records import NOWHERE, Place, Share
+from .rates import ROWS, RateCounts
+from .records import NOWHERE, Place, Share, Way
 from .replaying import History
 from .scheme import WayScheme
 from .streams import DAMAGED, Reader, Writer
@@ -27,8 +27,8 @@ Arrays = dict[str, NDArray[Any]]
 
 VERSION = 1
 
-FIRST_RATES, FIRST_SHARE = 13, 8
-"""Rates, and numbers of what a place shares, of a state that does not say how many it has."""
+FIRST_RATES, FIRST_SHARE, FIRST_WAY = 13, 8, 5
+"""Rates, and numbers of what a place shares, and of a way, of a state that does not say how many it has."""
 
 
 @dataclass(slots=True)
@@ -84,8 +84,9 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         "numbers": list(parts.numbers),
         "change": [parts.change.kind, list(parts.change.places)],
         "length": parts.history.length,
-        "rates": len(RATE_PRIORS),
+        "rates": ROWS,
         "share": len(Share()),
+        "way": len(Way()),
     }
     arrays = out.rows()
     return {**header, "check": _checksum(header, arrays)}, arrays
@@ -116,7 +117,10 @@ def restored(scheme: WayScheme, state: Any) -> Parts:
         share = int(header.get("share", FIRST_SHARE))
         if not FIRST_SHARE <= share <= len(Share()):
             raise ValueError("its places share what none does")
-        source = Reader(arrays["whole"], arrays["real"], share=share)
+        way = int(header.get("way", FIRST_WAY))
+        if not FIRST_WAY <= way <= len(Way()):
+            raise ValueError("its ways have more parts than any")
+        source = Reader(arrays["whole"], arrays["real"], share=share, way=way)
         if _checksum(header, arrays) != header["check"]:
             raise ValueError("its numbers are not those that were written")
         return _read(scheme, header, source)
@@ -158,7 +162,7 @@ def _number(number: int | None) -> int:
 
 def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts:
     entries, rates = header["hypotheses"], int(header.get("rates", FIRST_RATES))
-    if not FIRST_RATES <= rates <= len(RATE_PRIORS):
+    if not FIRST_RATES <= rates <= ROWS:
         raise ValueError("its rates are none of these")
     source.records(scheme)
     shared = _shared(_read_maps(scheme, source)) if entries else (Shared(), Shared(), Shared())
@@ -245,7 +249,7 @@ def _read_hypothesis(
     looks = source.reals(2 * scheme.count)
     h.looks = list(zip(looks[::2], looks[1::2], strict=True))
     h.crowd = source.counts() or None
-    more = [0.0] * (len(RATE_PRIORS) - rates)
+    more = [0.0] * (ROWS - rates)
     h.counts = RateCounts(counts[:rates] + more, counts[rates:] + more)
     h.periods = {int(frame): tuple(tuple(int(x) for x in row) for row in rows) for frame, rows in entry["periods"]}
     for _ in range(entry["undo"]):
@@ -287,7 +291,7 @@ def _check(h: Hypothesis, changed: Iterable[int]) -> None:
         if place is None:
             continue
         ends = [*(way.to for way in place.ways if way.to != NOWHERE), *(source for source, _ in place.into)]
-        values = [*place.share, *(x for way in place.ways for x in way[:3])]
+        values = [*place.share, *(x for way in place.ways for x in (*way[:3], way.stays))]
         known = all(h.places.get(end) is not None for end in ends)
         if not (known and all(0 <= way < h.scheme.count for _, way in place.into) and all(map(isfinite, values))):
             raise ValueError(f"place {number} leads to no place of its map, or counts what is no number")

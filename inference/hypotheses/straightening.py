@@ -8,7 +8,6 @@ from math import log
 from .extending import shared, unlink, with_way
 from .hypothesis import Hypothesis
 from .rates import MOVED, UNDONE
-from .records import Way
 from .weighing import rate_gain
 
 Counts = Mapping[int, tuple[float, float]]
@@ -40,7 +39,7 @@ def _cut(h: Hypothesis, number: int, index: int, to: int, gain: float, counts: C
     other.weight = h.weight + gain
     way = other.places[number].ways[index]
     unlink(other, number, index, way)
-    place = with_way(other.places[number], index, Way(way.net, way.open, way.blocked, 0, to))
+    place = with_way(other.places[number], index, way._replace(walks=0, to=to))
     other.put(number, shared(other, number, place))
     other.links -= 1
     for rate, (yes, no) in counts.items():

@@ -47,8 +47,8 @@ class Writer:
         self.many(place.recent, self.whole.append)
         self.many(place.into, self.whole.extend)
         for way in place.ways:
-            self.real += way[:3]
-            self.whole += way[3:]
+            self.real += (*way[:3], way.stays)
+            self.whole += way[3:5]
         for counts in place.sights:
             self.many(counts.items(), self.count)
         self.real += place.share
@@ -83,8 +83,8 @@ class Reader:
         CogmapError: they are no rows of numbers, or end too soon.
     """
 
-    def __init__(self, whole: Any, real: Any, *, share: int = len(Share())) -> None:
-        self._share = share
+    def __init__(self, whole: Any, real: Any, *, share: int = len(Share()), way: int = len(Way())) -> None:
+        self._share, self._way_reals = share, way - 2
         self.whole, self.real = _row(whole, "whole", np.int64), _row(real, "real", np.float64)
         self._at = self._at_real = 0
         self._records: list[Place] = []
@@ -134,9 +134,9 @@ class Reader:
         return Place(sights, tuple(ways), frame, tuple(position), tuple(recent), into, Share(*self.reals(self._share)))
 
     def _way(self) -> Way:
-        net, opened, blocked = self.reals(3)
+        net, opened, blocked, *stays = self.reals(self._way_reals)
         walks, to = self.numbers(2)
-        return Way(net, opened, blocked, walks, to)
+        return Way(net, opened, blocked, walks, to, *stays)
 
     def counts(self) -> SightCounts:
         """Whole numbers, and how much of each."""

@@ -20,10 +20,10 @@ from .logs import log_sum
 from .lookback import BACK, Past, passed_over
 from .options import Change, Checkpoint, TrackerOptions
 from .pruning import merged, normalised
-from .reading import whereabouts
-from .records import NOWHERE
 from .rates import ELSEWHERE
+from .reading import whereabouts
 from .recharting import recharted
+from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
 from .storing import Arrays, Parts, restored, stored

@@ -183,7 +183,7 @@ class Union:
             back = self.h.scheme.inverse[fork.way]
             way = ways[back]
             if way.to != NOWHERE and self.find(way.to) == number and not way.walks:
-                ways[back] = Way(way.net, way.open, way.blocked)
+                ways[back] = way._replace(to=NOWHERE)
         self.classes[other] = Place(
             place.sights, tuple(ways), place.frame, place.position, place.recent, into, place.share
         )
@@ -206,12 +206,13 @@ class Union:
 
     def _one_way(self, number: int, index: int, mine: Way, its: Way) -> Way:
         net = mine.net + its.net  # bounds are for the place when it is built: here they would lose evidence
-        opened, blocked = mine.open + its.open, mine.blocked + its.blocked
+        opened, blocked, stays = mine.open + its.open, mine.blocked + its.blocked, mine.stays + its.stays
         if mine.to == NOWHERE or its.to == NOWHERE or self.find(mine.to) == self.find(its.to):
-            return Way(net, opened, blocked, mine.walks + its.walks, its.to if mine.to == NOWHERE else mine.to)
+            to = its.to if mine.to == NOWHERE else mine.to
+            return Way(net, opened, blocked, mine.walks + its.walks, to, stays)
         kept, other = (mine, its) if mine.walks >= its.walks else (its, mine)
         self._forks.append(Fork(number, index, kept.to, other.to, other.walks))
-        return Way(net, opened, blocked, kept.walks, kept.to)
+        return Way(net, opened, blocked, kept.walks, kept.to, stays)
 
     def _ways_gain(self, first: int, a: Place, second: int, b: Place, index: int) -> float:
         """log Σ_s P(s | a) P(s | b) / P(s), s being open or blocked; half where both sides of the door are united."""

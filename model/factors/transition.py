@@ -101,6 +101,14 @@ class Transition(ModelFactor):
         others = [(a, -k, k) for k, a in alpha.items() if k >= 0 and k != place]
         return max(others)[2] if others else None
 
+    def targets(self, places: Ints) -> Ints:
+        """`[n, K]` what `beyond` says of each; -1 of none."""
+        keys, alpha, _ = self.table.concentration(self.rows(places))
+        others = (keys >= 0) & (keys != places.repeat(len(self.motions))[:, None])
+        found = np.where(others, alpha, -1.0).argmax(axis=1)
+        keys = np.where(others.any(axis=1), keys[np.arange(len(keys)), found], ELSEWHERE)
+        return keys.reshape(len(places), -1)
+
     def blocked(self, places: Ints) -> Floats:
         """`[n, K]` P(blocked | s, a) = B_s[s, s, a], within the floor of the doors; zero for `stay`."""
         size, floor = len(self.motions), self.context.priors.door_floor

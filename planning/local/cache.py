@@ -33,7 +33,6 @@ class WayRows:
         likely: `[n, K]` where it most probably leads to besides the place itself; see `likeliest`.
         blocked: `[n, K]` P(staying | s, a).
         ways: `[n, N + 1]` nats that visits teach of B_s by their ways.
-        untried: `[n, K]` nats that the first step along each way teaches; see `Transition.untried`.
     """
 
     successors: Ints
@@ -41,7 +40,6 @@ class WayRows:
     likely: Ints
     blocked: Floats
     ways: Floats
-    untried: Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +95,6 @@ class LocalCache:
         links: how often it has changed where a way most probably leads.
         found: what a search of the map found last, for the next one to go on from.
         where: where its places are.
-        untried: the most that a step along a way teaches, by place, where that is anything.
     """
 
     __slots__ = (
@@ -107,11 +104,13 @@ class LocalCache:
         "_outcomes",
         "_read",
         "_sights",
+        "_tries",
+        "_unasked",
         "_unseen",
+        "_untried",
         "_ways",
         "found",
         "links",
-        "untried",
         "visits",
         "where",
     )
@@ -119,7 +118,7 @@ class LocalCache:
     def __init__(self, map_: MapView, visits: int) -> None:
         self.visits = visits
         self._map = map_
-        self._ways, self._sights = Rows(self._new_ways), Rows(self._new_sights)
+        self._ways, self._sights, self._tries = Rows(self._new_ways), Rows(self._new_sights), Rows(self._new_tries)
         self._beside: dict[int, list[int]] = {}  # where each place may lead to
         self._read = -1  # of the log of changes
         self._outcomes: list[int] = []
@@ -128,7 +127,8 @@ class LocalCache:
         self.links = 0
         self.found: Any = None
         self.where = Where(map_)
-        self.untried: dict[int, float] = {}
+        self._untried: dict[int, float] = {}
+        self._unasked: set[int] | None = None  # what has changed since somebody asked for it; None for all
 
     def check(self, map_: MapView, look_ahead: int) -> None:
         """Raise `CogmapError` unless it is of this map, and tells of enough visits for this look-ahead."""
@@ -141,26 +141,30 @@ class LocalCache:
         """Forget what has changed since the last call."""
         map_, read = self._map, self._read
         ways, _ = map_.changed_places(read, map_.B_s, map_.visits, map_.transitions.walked)
-        self._note_untried(ways)
         tables = [sensor.table for sensor in map_.sights_sensed]
         sights, self._read = map_.changed_places(read, map_.A_p, *tables)
         self._forget_ways(ways)
+        self._tries.forget(ways)
+        self._unasked = None if ways is None or self._unasked is None else self._unasked.union(ways)
         outcomes = [table.outcomes for table in tables]
         if outcomes != self._outcomes:
             sights, self._unseen = None, None
         self._sights.forget(sights)
         self._outcomes = outcomes
 
-    def _note_untried(self, changed: Collection[int] | None) -> None:
-        """Which ways are worth a try, of the places that have changed, or of all."""
-        map_, many = self._map, len(self._map.places)
+    @property
+    def untried(self) -> dict[int, float]:
+        """The most that a step along a way teaches, by place, where that is anything."""
+        map_, many, changed = self._map, len(self._map.places), self._unasked
         if changed is None:
-            self.untried, changed = {}, range(many)
+            self._untried, changed = {}, range(many)
         for place in changed:
-            self.untried.pop(place, None)
+            self._untried.pop(place, None)
         places = np.array([place for place in changed if place < many and map_.visited[place]], dtype=np.int64)
         most = map_.transitions.untried(places).max(axis=1, initial=0.0)
-        self.untried |= {place: nats for place, nats in zip(places.tolist(), most.tolist(), strict=True) if nats}
+        self._untried |= {place: nats for place, nats in zip(places.tolist(), most.tolist(), strict=True) if nats}
+        self._unasked = set()
+        return self._untried
 
     def _forget_ways(self, places: Collection[int] | None) -> None:
         """What is known of the ways of these places, or of all."""
@@ -181,6 +185,10 @@ class LocalCache:
     def ways(self, places: Ints) -> WayRows:
         """Of these places, and a row of zeros at the end."""
         return WayRows(*self._ways.columns(places))
+
+    def tries(self, places: Ints) -> Floats:
+        """`[n + 1, K]` nats that the first step along each way teaches, with a row of zeros at the end."""
+        return self._tries.columns(places)[0]
 
     def sights(self, places: Ints) -> SightRows:
         """Of these places, and a row of zeros at the end."""
@@ -230,8 +238,10 @@ class LocalCache:
         keys, alpha = keys.reshape(len(places), size, -1), alpha.reshape(len(places), size, -1)
         p = alpha / alpha.sum(axis=2, keepdims=True)
         likely, blocked = likeliest(keys, p, places, ELSEWHERE)
-        of_ways, untried = map_.transitions.information(places, self.visits), map_.transitions.untried(places)
-        return keys, p, likely, blocked, of_ways, untried
+        return keys, p, likely, blocked, map_.transitions.information(places, self.visits)
+
+    def _new_tries(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
+        return (self._map.transitions.untried(places),)
 
     def _new_sights(self, places: Ints) -> tuple[NDArray[np.generic], ...]:
         map_, steps = self._map, self.visits

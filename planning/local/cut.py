@@ -61,8 +61,8 @@ class Surroundings:
     def sensed(self) -> Ints:
         """`[n, K]` where each action most probably leads to from the starts, as sensed now; see `LocalCache.likely`."""
         rows = self.cache.ways(self.starts)
-        _unseen(self.cache, rows, self.starts, self.unseen)
-        _sense(rows, self.starts, np.arange(len(self.starts)), self.open)
+        tries = _unseen(self.cache, rows, self.starts, self.unseen)
+        _sense(rows, self.starts, np.arange(len(self.starts)), self.open, tries)
         return rows.likely[:-1]
 
 
@@ -167,31 +167,31 @@ def _cut(
     at, rows = within.searchsorted(places), cache.ways(within)
     entered = np.zeros(len(within) + 1, dtype=np.bool_)
     entered[:-1] = map_.visited[within]
-    _unseen(cache, rows, within, unseen)
-    _sense(rows, within, at, open_)
+    tries = _unseen(cache, rows, within, unseen)
+    _sense(rows, within, at, open_, tries)
     rows.blocked[:, map_.motions.stay] = 0.0
     if not entered[:-1].all():
         leave_out_dormant(map_, within, rows, entered[:-1])
     B, successor = _transitions(within, rows, map_.motions.stay)
-    untried = rows.untried if rows.untried.any() else None
-    return Cut(np.append(within, ELSEWHERE), at, entered, B, successor, rows.blocked, rows.ways, untried, Kept())
+    return Cut(np.append(within, ELSEWHERE), at, entered, B, successor, rows.blocked, rows.ways, tries, Kept())
 
 
-def _unseen(cache: LocalCache, rows: WayRows, places: Ints, unseen: Sequence[bool]) -> None:
-    """Leave what steps teach to the ways of which no sensor tells; there no look at a place teaches anything.
+def _unseen(cache: LocalCache, rows: WayRows, places: Ints, unseen: Sequence[bool]) -> Floats | None:
+    """What the first step along each way teaches, of ways of which no sensor tells; None where that is nothing.
 
-    Plans count on such a way though it is as likely shut.
+    There no look at a place teaches anything, and plans count on such a way though it is as likely shut.
     """
     if not any(unseen):
-        rows.untried[:] = 0.0
-        return
-    rows.untried[:, ~np.array(unseen, dtype=np.bool_)] = 0.0
-    for row, action in np.argwhere(rows.untried > 0.0).tolist():
+        return None
+    tries = cache.tries(places)
+    tries[:, ~np.array(unseen, dtype=np.bool_)] = 0.0
+    for row, action in np.argwhere(tries > 0.0).tolist():
         rows.ways[row] -= cache.looks(int(places[row]), action)
         keys, p = rows.successors[row, action], rows.probability[row, action]
         beyond = np.where((keys >= 0) & (keys != places[row]), p, 0.0)
         if beyond.max() >= HOPE:
             rows.likely[row, action] = keys[beyond.argmax()]
+    return tries if tries.any() else None
 
 
 def _likeliest_starts(places: Ints, belief: Floats, most: int) -> tuple[Ints, Floats, float]:
@@ -224,24 +224,25 @@ def _sights(table: SparseDirichlet, places: Ints, preferences: Preferences) -> t
     return (A, multiplicity, log_C) if rest else (A[:-1], multiplicity[:-1], log_C[:-1])
 
 
-def _sense(rows: WayRows, places: Ints, sensing: Ints, open_: Sequence[bool]) -> None:
+def _sense(rows: WayRows, places: Ints, sensing: Ints, open_: Sequence[bool], tries: Floats | None) -> None:
     """Let the ways of `sensing` be as they are sensed now: shut, or not the place itself beyond.
 
     Ways that nobody has looked at stay as the map has them.
     """
     here, shut = places[sensing], ~np.array(open_, dtype=np.bool_)
-    keys, p, untried = rows.successors[sensing], rows.probability[sensing], rows.untried[sensing] > 0.0
-    before = (keys.copy(), p) if untried.any() else None
+    keys, p = rows.successors[sensing], rows.probability[sensing]
+    old_keys, old_p = keys.copy(), p
     own = keys == here[:, None, None]
     beyond = (p * ~own).sum(axis=2, keepdims=True)
     p = np.where(own & (beyond > 0.0), 0.0, p / np.where(beyond > 0.0, beyond, 1.0))
     keys[:, shut], p[:, shut] = EMPTY, 0.0
     keys[:, shut, 0], p[:, shut, 0] = here[:, None], 1.0
-    if before is not None:
-        keys, p = (np.where(untried[:, :, None], old, new) for old, new in zip(before, (keys, p), strict=True))
+    untried = None if tries is None else tries[sensing] > 0.0
+    if untried is not None:
+        keys, p = np.where(untried[..., None], old_keys, keys), np.where(untried[..., None], old_p, p)
     rows.successors[sensing], rows.probability[sensing] = keys, p
     likely, rows.blocked[sensing] = likeliest(keys, p, here, ELSEWHERE)
-    rows.likely[sensing] = np.where(untried, rows.likely[sensing], likely)
+    rows.likely[sensing] = likely if untried is None else np.where(untried, rows.likely[sensing], likely)
 
 
 def _transitions(places: Ints, rows: WayRows, stay: int) -> tuple[Transitions, Ints]:

@@ -28,6 +28,9 @@ def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int =
     Breadth first along likely ways of places that were entered; what was never entered ends an option. Costs what it
     touches: places within (1 + weight) / (1 - weight) times the way to the nearest option.
     """
+    map_ = around.map
+    if map_.visited.all() and not map_.pose.guessed(map_.transitions):
+        return None
     search = _Search(around, (1.0 + weight) / (1.0 - weight))
     ends = search.ends
     if not ends:

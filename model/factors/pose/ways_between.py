@@ -30,7 +30,7 @@ class Between(NamedTuple):
     back: int
 
 
-def between(here: Floats, mine: Floats, where: Floats, theirs: Floats) -> list[Between]:
+def between(here: Floats, mine: Floats, where: Floats, theirs: Floats, *, miss: Floats) -> list[Between]:
     """The ways that may be one, the most probable first: those that point at each other exactly, the shortest first.
 
     Args:
@@ -38,18 +38,22 @@ def between(here: Floats, mine: Floats, where: Floats, theirs: Floats) -> list[B
         mine: `[K]` bearings of its ways; below 0 where there is none.
         where: `[n, 3]` where the others are.
         theirs: `[n, K]` bearings of theirs.
+        miss: `[n]` degrees by which a way may miss each, since nobody knows for sure where it lies.
     """
     across = where - here
     angle = np.rad2deg(np.arctan2(across[:, 0], across[:, 1]))
     there = _apart(mine[None] - angle[:, None], mine[None] < 0.0)
     back = _apart(theirs - angle[:, None] - 180.0, theirs < 0.0)
-    rows = np.flatnonzero((there.min(axis=1) <= ROUGH) & (back.min(axis=1) <= ROUGH))
+    within = ROUGH + miss
+    rows = np.flatnonzero((there.min(axis=1) <= within) & (back.min(axis=1) <= within))
     length = np.linalg.norm(across, axis=1)
     found: list[tuple[bool, float, Between]] = []
     for i in rows.tolist():
-        for action in np.flatnonzero(there[i] <= ROUGH).tolist():
-            for its in np.flatnonzero(back[i] <= ROUGH).tolist():
-                rough = max(there[i, action], back[i, its]) > EXACT
+        for action in np.flatnonzero(there[i] <= within[i]).tolist():
+            for its in np.flatnonzero(back[i] <= within[i]).tolist():
+                if miss[i] and abs((mine[action] - theirs[i, its]) % 360.0 - 180.0) > ROUGH:
+                    continue  # wherever the two lie, they do not point at each other
+                rough = max(there[i, action], back[i, its]) > EXACT + miss[i]
                 found.append((rough, float(length[i]), Between(i, action, its)))
     return [pair for _, _, pair in sorted(found)]
 

@@ -1,0 +1,121 @@
+"""Whether a way that was walked has led to a place entered before: by where that lies, and by what is sensed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...percept import Percept
+from ..base import Floats, Ints
+from ..sight import Sight
+from .base import Growing
+from .metric import MetricPose
+from .odometer import Move
+from .relaxing import drift
+from .ways_between import ROUGH
+
+BLUR = 0.03
+"""Standard deviation of a position that is known for sure, in mean lengths of a way."""
+
+TAILS = 4.0
+"""Degrees of the Student t that positions follow."""
+
+MISREAD = 0.05
+"""Probability that something sensed says nothing of the place."""
+
+ONE_WAY = 3.0
+"""Nats against a place that has no way back."""
+
+FEW = 8
+"""Places that are looked at where nothing but their position tells them apart."""
+
+
+def recognised(pose: MetricPose, model: Growing, percept: Percept, left: int, at: Floats, move: Move) -> int | None:
+    """The place entered before that the agent is more probably in than in a new one; None where there is none.
+
+    log odds = log P(where it lies | it is there) + log P(sensed | it) - log P(somewhere new) - log P(sensed | new)
+
+    Args:
+        pose: where places lie.
+        model: what it is part of.
+        percept: what is sensed now, and the action that led here.
+        left: the place that was left.
+        at: `[3]` where the move led to, as measured.
+        move: what was measured.
+    """
+    places = _candidates(pose, model, percept, left, at)
+    if not len(places):
+        return None
+    odds = _lies_there(pose, left, places, at, move) + _looks_so(model, places, percept)
+    odds -= _leads_back(pose, model, places, left, percept.action or 0)
+    best = int(odds.argmax())
+    return int(places[best]) if odds[best] > 0.0 else None
+
+
+def _candidates(pose: MetricPose, model: Growing, percept: Percept, left: int, at: Floats) -> Ints:
+    """The places that have such ways; where no bearings are sensed the nearest."""
+    reading = percept.readings.get("bearings")
+    if isinstance(reading, int):
+        seen = np.array(model.sensors["bearings"].label(reading), dtype=np.float64)
+        found = model.sensors["bearings"].candidates(reading)[0]
+        found = found[(pose.bearings.values[found] == seen).all(axis=1)]
+    else:
+        found = model.visits.order.values
+        apart = np.linalg.norm(pose.where.values[found] - at, axis=1)
+        found = found[np.argsort(apart, kind="stable")[: FEW + 1]]
+    return found[found != left]
+
+
+def _lies_there(pose: MetricPose, left: int, places: Ints, at: Floats, move: Move) -> Floats:
+    """`[n]` log of the density of each at this position, over that of places in general."""
+    off = (pose.where.values[places] - at) / pose.length
+    axes = 3 if off[:, 2].any() else 2
+    spread = np.full(len(places), BLUR)
+    if np.square(off).sum(axis=1).min() > np.square(BLUR):
+        along = drift(pose.walked(), left, places, len(pose.where)) / pose.length
+        spread = np.sqrt(spread**2 + np.square(along) + np.square(move.along / pose.length))
+    known = np.isfinite(spread)
+    spread = np.where(known, spread, 1e6)
+    far = np.square(off / spread[:, None]).sum(axis=1)
+    log = -axes * np.log(spread * np.sqrt(2.0 * np.pi)) - (TAILS + axes) / 2.0 * np.log1p(far / TAILS)
+    return np.where(known, log, -np.inf)
+
+
+def _looks_so(model: Growing, places: Ints, percept: Percept) -> Floats:
+    """`[n]` log P(sensed | place) less that of a place never entered, where nothing is told twice."""
+    told = np.zeros(len(places))
+    for name, reading in percept.readings.items():
+        if name == "open" and "bearings" in percept.readings:
+            continue
+        new = _of_new(model, name, reading)
+        here = model.sensors[name].log_likelihood(places, reading)
+        told += np.logaddexp(here + np.log1p(-MISREAD), new + np.log(MISREAD)) - new
+    return told
+
+
+def _of_new(model: Growing, name: str, reading: Any) -> float:
+    """Log P(reading) in a place never entered: what others show as often as places entered so far did."""
+    sensor, entered = model.sensors[name], len(model.visits.order)
+    if not isinstance(reading, int) or not isinstance(sensor, Sight):
+        return float(sensor.log_predictive(reading))
+    shown, kinds = len(sensor.candidates(reading)[0]), len(sensor.labels)
+    again = (max(entered - kinds + (not shown), 0) + 0.5) / (entered + 1.0)
+    return float(np.log(again * shown / max(entered, 1) if shown else 1.0 - again))
+
+
+def _leads_back(pose: MetricPose, model: Growing, places: Ints, left: int, action: int) -> Floats:
+    """`[n]` nats against places whose way back is missing; infinite where it was walked, and led elsewhere."""
+    bearing = float(pose.bearings.values[left, action])
+    if bearing < 0.0:
+        return np.zeros(len(places))
+    against = np.full(len(places), ONE_WAY)
+    ways = model.transitions
+    for i, place in enumerate(places.tolist()):
+        theirs = pose.bearings.values[place]
+        apart = np.where(theirs < 0.0, np.inf, np.abs((theirs - bearing) % 360.0 - 180.0))
+        back = int(apart.argmin())
+        if apart[back] <= ROUGH:
+            elsewhere = ways.walked.values[place, back] and ways.beyond(place, back) != left
+            against[i] = np.inf if elsewhere else 0.0
+    return against

@@ -1,0 +1,106 @@
+"""Positions that go best with what was measured between them: weighted least squares over the ways that were walked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.linalg import spsolve
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+AXES = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What was measured between places.
+
+    Attributes:
+        ends: `[E, 2]` the two places of each measurement.
+        moved: `[E, 3]` how far the second lies from the first.
+        along, across: `[E]` standard deviations of that, in the direction of the move and square to it.
+    """
+
+    ends: Ints
+    moved: Floats
+    along: Floats
+    across: Floats
+
+    def among(self, chosen: NDArray[np.bool_]) -> Measured:
+        """These measurements alone."""
+        return Measured(self.ends[chosen], self.moved[chosen], self.along[chosen], self.across[chosen])
+
+    @property
+    def precision(self) -> Floats:
+        """`[E, 3, 3]` the inverse covariance of each."""
+        flat = self.moved[:, :2]
+        u = flat / np.maximum(np.linalg.norm(flat, axis=1), 1e-12)[:, None]
+        along, across = 1.0 / np.square(self.along), 1.0 / np.square(self.across)
+        found = np.zeros((len(u), AXES, AXES))
+        found[:, :2, :2] = across[:, None, None] * np.eye(2) + (along - across)[:, None, None] * (
+            u[:, :, None] * u[:, None]
+        )
+        found[:, 2, 2] = along
+        return found
+
+
+def relaxed(where: Floats, measured: Measured, free: Ints) -> Floats:
+    """`[n, 3]` where the places `free` lie if all others stay where they are: the most probable positions.
+
+    Args:
+        where: `[S, 3]` where places are thought to be now.
+        measured: between places; what is between two others that stay is ignored.
+        free: `[n]` ascending.
+    """
+    at = np.searchsorted(free, measured.ends)
+    at[at == len(free)] = 0
+    inside = free[at] == measured.ends
+    some = inside.any(axis=1)
+    measured, at, inside = measured.among(some), at[some], inside[some]
+    first, second = measured.ends.T
+    precision = measured.precision
+    off = np.einsum("eij,ej->ei", precision, measured.moved - (where[second] - where[first]))
+    pull = np.zeros((len(free), AXES))
+    np.add.at(pull, at[inside[:, 1], 1], off[inside[:, 1]])
+    np.add.at(pull, at[inside[:, 0], 0], -off[inside[:, 0]])
+    blocks = [
+        (at[inside[:, a] & inside[:, b], a], at[inside[:, a] & inside[:, b], b], (1.0 if a == b else -1.0), a, b)
+        for a in (0, 1)
+        for b in (0, 1)
+    ]
+    axes = np.arange(AXES)
+    row = np.concatenate([(i[:, None, None] * AXES + axes[:, None] + 0 * axes).ravel() for i, _, _, _, _ in blocks])
+    column = np.concatenate([(j[:, None, None] * AXES + 0 * axes[:, None] + axes).ravel() for _, j, _, _, _ in blocks])
+    value = np.concatenate([(sign * precision[inside[:, a] & inside[:, b]]).ravel() for _, _, sign, a, b in blocks])
+    size = AXES * len(free)
+    slight = 1e-12 * float(np.abs(value).max(initial=1.0))
+    hold = np.arange(size)  # who is tied to nobody stays
+    matrix = coo_array(
+        (np.append(value, np.full(size, slight)), (np.append(row, hold), np.append(column, hold))), shape=(size, size)
+    )
+    return where[free] + np.asarray(spsolve(matrix.tocsc(), pull.ravel())).reshape(-1, AXES)
+
+
+def drift(measured: Measured, source: int, places: Ints, size: int) -> Floats:
+    """`[n]` standard deviation, along each axis, of where places lie from `source`: at most what the best way has.
+
+    Variances add up along the ways that were walked; infinite where none leads.
+    """
+    first, second = measured.ends.T
+    variance = np.square(measured.along)
+    graph = csr_array((variance, (first, second)), shape=(size, size))
+    return np.sqrt(dijkstra(graph, directed=False, indices=source)[places])
+
+
+def around(measured: Measured, ends: Ints, most: int, size: int) -> Ints:
+    """The places nearest to `ends` by steps along measured ways, `most` or fewer, ascending."""
+    first, second = measured.ends.T
+    graph = csr_array((np.ones(len(first)), (first, second)), shape=(size, size))
+    steps = dijkstra(graph, directed=False, indices=ends, unweighted=True, min_only=True)
+    order = np.argsort(steps, kind="stable")[:most]
+    return np.sort(order[np.isfinite(steps[order])])
