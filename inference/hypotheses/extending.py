@@ -124,12 +124,12 @@ def _lead(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
 
 
 def _relink(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
-    """A way leads elsewhere than was thought: the link there was is gone, or only leads here."""
+    """A way leads elsewhere than was thought: the link there was is gone, or leads here only."""
     place, inverse = h.places[here], h.scheme.inverse
     way = place.ways[index]
     if inverse is not None and (back := h.places[way.to].ways[inverse[index]]).walks and back.to == here:
         h.counts.no[UNDONE] += not way.walks
-        _count_link(h, place, index, to, branch)
+        h.links += 1  # that it leads off the chart says no more than that it does not lead back
     elif h.scheme.displacements is not None:
         off = float(h.beside(place, index) != way.to)
         h.links -= 1

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from math import log
 from typing import NamedTuple
 
+from .branches import unseen
 from .extending import shared, unlink, with_way
 from .hypothesis import Hypothesis
 from .rates import ELSEWHERE, MOVED, UNDONE
@@ -214,7 +215,8 @@ def _counts(h: Hypothesis, link: Link, part: Part, *, cut: bool) -> tuple[Counts
         return None, 0.0
     undone = float(side.walks > 0)
     crooked = undone + (back.walks > 0)
-    return {MOVED: (1.0, -1.0), ELSEWHERE: (off, -1.0 - off), UNDONE: (undone, -crooked)}, gain - log(h.size)
+    elsewhere = (off, -1.0 - off) if part.numbers or not undone else (0.0, 0.0)
+    return {MOVED: (1.0, -1.0), ELSEWHERE: elsewhere, UNDONE: (undone, -crooked)}, gain - log(h.size + unseen(h))
 
 
 def _across(h: Hypothesis, part: Part) -> Iterator[Link]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import log
 
+from .branches import unseen
 from .extending import shared, unlink, with_way
 from .hypothesis import Hypothesis
 from .rates import MOVED, UNDONE
@@ -28,7 +29,7 @@ def straightened(h: Hypothesis, number: int, *, floor: float) -> Hypothesis | No
         back = h.places[way.to].ways[inverse[index]]
         crooked = len(sources) + (back.walks > 0 and back.to != number)
         counts = {MOVED: (1.0, -1.0), UNDONE: (0.0, -float(crooked))}
-        gain = sum(rate_gain(h, rate, *more) for rate, more in counts.items()) - log(2.0)
+        gain = sum(rate_gain(h, rate, *more) for rate, more in counts.items()) - log(h.size + unseen(h))
         if sources and h.weight + gain >= floor:
             return _cut(h, number, index, sources[0], gain, counts)
     return None

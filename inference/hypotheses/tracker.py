@@ -215,19 +215,20 @@ class Tracker:
         proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
         found = merged(children, proposed)
         found = [h for h in found if h.weight > found[0].weight - drop]
-        found = self._doubted_or_clear(found, previous, drop, wide)
+        found = self._doubted_or_clear(found, previous, sensed, drop)
         best = found[0]
         self.change = Change("extended", tuple(best.touched)) if best.origin is previous else Change("revised")
         return found
 
     def _doubted_or_clear(
-        self, found: list[Hypothesis], previous: Hypothesis, drop: float, wide: float
+        self, found: list[Hypothesis], previous: Hypothesis, sensed: Sensed, drop: float
     ) -> list[Hypothesis]:
         """What is kept: while nothing is in doubt the best one alone, or else all, with what was passed over before."""
-        step = Past(self.time, previous, previous.marks, self.labels, 0.0)
+        step, wide = Past(self.time, previous, previous.marks, self.labels, 0.0), -log(self.options.least)
         if self._clear and len(found) > 1:
             floor = found[0].weight - wide
-            again = self._looked_back((*self._past, step), floor, drop, wide)
+            over = passed_over((*self._past, step), self.history, sensed, narrow=drop, wide=wide, floor=floor)
+            again = nlargest(self.options.most, over, key=lambda h: h.weight)
             found = merged(found, [*again, *(fold for h in again for fold in self._folds(h, floor))])
             self._clear, self._quiet = False, 0
         found, norm = normalised(found, drop=wide, most=self.options.most)
@@ -243,10 +244,6 @@ class Tracker:
         """Whether another hypothesis says more than that a place is not where the pose says."""
         doubt = log(self.options.doubt)
         return any(h.weight > doubt and (found[0].apart or not h.apart) for h in found[1:])
-
-    def _looked_back(self, past: tuple[Past, ...], floor: float, drop: float, wide: float) -> list[Hypothesis]:
-        found = passed_over(past, self.history, narrow=drop, wide=wide, floor=floor)
-        return nlargest(self.options.most, found, key=lambda h: h.weight)
 
     def _settle(self) -> None:
         """Share what the last step added, once it cannot be undone any more: nobody reads it differently by this."""

@@ -127,7 +127,7 @@ def _links(united: Union, *, apart: bool) -> Links:
             continue
         count += 1
         crooked += back != NOWHERE and not mutual
-        off += _off(united, number, index, to, apart=apart)
+        off += _off(united, number, index, to, apart=apart) and not _rivalled(united, number, index, to, apart=apart)
     squares = _squares(united, apart=apart) if h.scheme.displacements is None else (0.0, 0.0)
     return Links(count, off, crooked, meeting if inverse is None else 0, *squares)
 
@@ -155,6 +155,15 @@ def _off(united: Union, number: int, index: int, to: int, *, apart: bool) -> boo
         place, there = h.places[number], h.places[to]
         return h.beyond(place, index) != (there.frame, there.position)
     return united.charts.ahead(united.find(number), index) != united.key(to)
+
+
+def _rivalled(united: Union, number: int, index: int, to: int, *, apart: bool) -> bool:
+    """Whether a link is known not to lead back to where a walk came from: that it is off the chart says no more."""
+    h, find = united.h, _itself if apart else united.find
+    if h.scheme.inverse is None:
+        return False
+    into = h.places[number].into if apart else united.view(number).into
+    return any(by == h.scheme.inverse[index] and find(source) != to for source, by in into)
 
 
 def _doors(united: Union, *, apart: bool) -> float:
