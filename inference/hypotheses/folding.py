@@ -89,7 +89,7 @@ def _count(united: Union, h: Hypothesis, more: Links) -> None:
         counts.no[SQUARE] = max(counts.no[SQUARE] + more.open_square, 0.0)
         counts.no[NEW] = max(h.links - h.size + 1 - counts.yes[SQUARE], 0.0)
         return
-    off = more.off + (united.charts.periods is not None)
+    off = more.off - more.astray + (united.charts.periods is not None)
     counts.yes[ELSEWHERE] = max(counts.yes[ELSEWHERE] + off, 0.0)
     counts.no[ELSEWHERE] = max(counts.no[ELSEWHERE] + more.ways - more.off, 0.0)
 

@@ -150,7 +150,7 @@ class Union:
     def _give_up(self, fork: Fork, cost: float) -> None:
         self._cut(self.find(fork.number), fork)
         self.gain -= cost
-        self.cost += cost if fork.walks else 0.0  # a way back that leads elsewhere is scored with the links
+        self.cost += cost
         if self.gain < self._floor:
             raise ContradictionError
 
