@@ -10,7 +10,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..inference import Belief, advance, begin
-from ..model import CogmapError, Growth, MotionSpec, Percept, Pose, Sensor, Whereabouts, take_slice
+from ..model import (
+    CogmapError,
+    Contexts,
+    Growth,
+    MotionSpec,
+    Percept,
+    Pose,
+    Sensor,
+    Sight,
+    Ways,
+    Whereabouts,
+    take_slice,
+)
 from ..planning import Plan, Planner
 from .filing import KEEP, Filed
 from .following import Followed, follow
@@ -46,7 +58,7 @@ class Agent(Filed):
         map: what is known beforehand: a networkx graph of places, or a file of one (node-link JSON or GraphML). Nodes
             have what each sensor senses there under its name, and maybe a `position`; edges say in `way` which action
             they are. Ways that it does not have are shut. Places get numbers in its order; where in it the agent wakes
-            up it finds out.
+            up it finds out. A map in several contexts says so in its attribute `contexts`; see `Contexts`.
         keep: of so many last steps at least `trace` has every record and `map.growth` every event, of those before it
             what is still there; None of all of them, however many.
 
@@ -79,12 +91,17 @@ class Agent(Filed):
             if known is None:
                 raise CogmapError("agent: it has no motions; give world.motions, or {name: displacement}")
             motions = known.motions
+        if sensors is None and known is not None and known.contexts:
+            sensors = [Sight(), Ways(), Contexts(known.contexts)]
         self._assemble(motions, sensors, pose, growth, planner, settings or Settings(), seed)
         self.keep = keep
         if known is None:
             self.growth.begin(self.map, step=0)
         else:
             self._recognition.begin_with(records_of_graph(known, self.map, self._recognition.sensing))
+            for facts, place in zip(known.nodes.values(), self._recognition.mirror.in_order, strict=True):
+                for sensor in self.map.sensors.values():
+                    sensor.know(place, facts.get(sensor.name))
 
     def prefer(
         self,
@@ -143,8 +160,15 @@ class Agent(Filed):
         """
         return self._whole(lambda: self._perceive(observation))
 
+    _frame_turns = False
+
     def _perceive(self, observation: Mapping[str, Any]) -> Belief:
         state, values = self._state, checked(observation, self.map)
+        if values.get("turn") and not self._frame_turns:
+            raise CogmapError(
+                f"observation: 'turn' is {values['turn']!r}, and the frame of this agent does not turn; leave it out, "
+                "or make a TurningAgent"
+            )
         wakes = not state.steps and self._recognition.followed is not None  # in a map that was given, somewhere
         if wakes or state.told:
             values["moved"] = True
@@ -165,7 +189,8 @@ class Agent(Filed):
         state.expected = None
         state.spend(percept)
         state.percept, state.acted, state.choice, self._plan = percept, False, None, None
-        state.open = self._recognition.open(percept)
+        everything = (True,) * len(self.map.motions)
+        state.open = self._recognition.open(percept) if self._recognising else percept.passable or everything
         state.steps += 1
         return self.belief
 
@@ -252,7 +277,9 @@ class Agent(Filed):
         if not recognition.choose(belief):
             self._revise(percept)
             return
-        state.belief = recognition.weighed(belief)
+        state.belief = recognition.weighed(belief, percept)
+        if state.belief.message is not belief.message:
+            state.window.clear()
         self._remember(percept)
         if recognition.lost:
             return
@@ -272,7 +299,8 @@ class Agent(Filed):
             places = {moved[at]: value for at, value in state.preferences.places.items() if at in moved}
             state.preferences = replace(state.preferences, places=places)
         state.revised = moved is not None or self.belief.place != recognition.place
-        state.belief = recognition.believed(percept) if state.revised else recognition.weighed(self.belief)
+        here, belief = recognition.place, self.belief
+        state.belief = recognition.believed(percept, here) if state.revised else recognition.weighed(belief, percept)
         state.window.clear()
         self._remember(percept)
 
@@ -317,4 +345,5 @@ class Agent(Filed):
             costs=self._state.expected_costs(len(self.map.motions), stay=self.map.motions.stay),
             structure=None if preferences else self._recognition.question,  # what is preferred comes first
             unseen=unseen_ways(self._state.percept, self.map.motions),
+            prices=self._state.prices(),
         )

@@ -34,6 +34,12 @@ def check_state(state: State, map_: CognitiveMap) -> None:
     if state.belief is not None:
         _check_belief(state.belief, map_)
     _check_preferences(state.preferences, map_)
+    if not all(_is_action(action, actions) and many > 0 <= total for action, (many, total) in state.costs.items()):
+        raise CogmapError("its moves cost what none can")
+    for name, value in (state.expected or {}).items():
+        hash(value)
+        if name not in map_.sensors:
+            raise CogmapError("it expected something of a sensor that it does not have")
     if state.choice is not None:
         _check_choice(state.choice, map_)
     if state.percept is not None:

@@ -12,7 +12,7 @@ from ..model import CogmapError, Growth, Motions, Pose, Sensor, map_state, resto
 from ..planning import Planner
 from . import storage
 from .packing import Arrays, pack, unpacked_state
-from .parts import made_of
+from .parts import MissingPart, made_of
 from .settings import Settings
 from .wholeness import Whole
 
@@ -94,6 +94,9 @@ class Filed(Whole):
         settings: Settings | None = None,
     ) -> Self:
         """The agent that `state` took apart; see `load`."""
+        turning = header.get("turning", {})
+        if turning.get("turn") or turning.get("sought"):
+            raise MissingPart("load: the file is of an agent whose frame has turned; use TurningAgent.load")
         agent = cls.__new__(cls)
         made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth, planner=planner)
         motions = _motions(header["motions"])

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Hashable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from typing import Any, NamedTuple, cast
 
@@ -30,12 +30,18 @@ class KnownMap:
         attributes: of the graph.
         nodes: attributes by id, in order.
         ways: all that are open.
+        contexts: those that the world may be in; none where there is but one.
+
+    A graph whose attribute `contexts` lists some is taken once for each: a node may say in `contexts` what differs,
+    such as `{"left": {"sight": "reward"}}`; an edge may say `only`, the contexts in which it is open, and `then`, the
+    context that it leads to (the way that takes a key).
     """
 
     where: str
     attributes: Facts
     nodes: Mapping[Hashable, Facts]
     ways: tuple[GivenWay, ...]
+    contexts: tuple[Hashable, ...] = ()
 
     @classmethod
     def of(cls, source: Any) -> KnownMap:
@@ -54,7 +60,47 @@ class KnownMap:
         if not seen:
             raise CogmapError(f"{where}: it has no node; give a graph of places")
         ways = tuple(way for way in _ways(graph) if way.source in seen and way.target in seen)
-        return cls(where, dict(graph.graph), seen, ways)
+        return cls(where, dict(graph.graph), seen, ways)._in_contexts()
+
+    def _in_contexts(self) -> KnownMap:
+        """Each place and each way once a context, if there are any."""
+        given = self.attributes.get("contexts")
+        if given is None:
+            return self
+        contexts = tuple(cast(Iterable[Any], given)) if isinstance(given, list | tuple) else ()
+        if len(contexts) < 2:
+            raise CogmapError(f"{self.where}: its contexts are {given!r}; give a list of two or more")
+        nodes = {
+            (k, node): {**facts, **self._differs(node, contexts).get(k, {}), "context": k}
+            for k in contexts
+            for node, facts in self.nodes.items()
+        }
+        ways = [
+            GivenWay((k, way.source), (way.facts.get("then", k), way.target), way.facts, way.reverse)
+            for k in contexts
+            for way in self.ways
+            if k in self._open_in(way, contexts)
+        ]
+        return replace(self, nodes=nodes, ways=tuple(ways), contexts=contexts)
+
+    def _differs(self, node: Hashable, contexts: tuple[Any, ...]) -> Mapping[Any, Facts]:
+        own = self.nodes[node].get("contexts", {})
+        if not isinstance(own, Mapping) or not all(isinstance(facts, Mapping) for facts in cast(Facts, own).values()):
+            raise CogmapError(f"{self.where}: node {node!r}: contexts are {own!r}; give {{context: {{sensor: value}}}}")
+        self._check(f"node {node!r}", cast(Facts, own), contexts)
+        return cast(Mapping[Any, Facts], own)
+
+    def _open_in(self, way: GivenWay, contexts: tuple[Any, ...]) -> tuple[Any, ...]:
+        only = way.facts.get("only", contexts)
+        only = tuple(cast(Iterable[Any], only)) if isinstance(only, list | tuple) else (only,)
+        self._check(f"the way from {way.source!r}", (*only, way.facts.get("then", contexts[0])), contexts)
+        return only
+
+    def _check(self, what: str, named: Iterable[Any], contexts: tuple[Any, ...]) -> None:
+        for k in named:
+            if k not in contexts:
+                known = ", ".join(map(repr, contexts))
+                raise CogmapError(f"{self.where}: {what} speaks of context {k!r}; the contexts are {known}")
 
     @property
     def motions(self) -> dict[str, tuple[int, ...]]:

@@ -121,5 +121,6 @@ def _array(name: str, content: bytes) -> NDArray[Any]:
         raise ValueError(f"member {name} has truth values that are none")
     if kind == "f" and np.isnan(array).any():
         raise ValueError(f"member {name} has numbers that are none")
-    array = array.astype(dtype.newbyteorder("="), copy=False)
+    wide = np.dtype(np.float64) if kind == "f" else dtype.newbyteorder("=")  # shorter ones overflow in comparisons
+    array = array.astype(wide, copy=False)
     return array.reshape(shape, order="F" if fortran == "True" else "C")

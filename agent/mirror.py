@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, whereabouts
+from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, together, whereabouts
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 
 WALKS = 3
@@ -63,6 +63,11 @@ class Mirror:
         found = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Ways)]
         self.ways = found[0] if found else map_.unsensed_ways()
 
+    @property
+    def in_order(self) -> tuple[int, ...]:
+        """The places of the map, in the order of those of the hypothesis."""
+        return tuple(self.places[number] for number in sorted(self.places))
+
     # -- reading -------------------------------------------------------------------------------------------
 
     def position(self, h: Hypothesis, number: int) -> Position | None:
@@ -110,6 +115,9 @@ class Mirror:
         best = hypotheses[0][0]
         mass, elsewhere = dict[int, float](), 0.0
         for h, p in hypotheses:
+            if h.crowd is None and best.crowd is None and together(h, best):
+                mass[here] = mass.get(here, 0.0) + p
+                continue
             for number, share in whereabouts(h).items():
                 same = number == best.here and self._key(h, number) == self._key(best, number)
                 place = here if same else self._place(h, number)

@@ -29,6 +29,8 @@ def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str,
             raise CogmapError("observation: 'open' and 'ways' are two words for one thing; give one of them")
         given["open"] = given.pop("ways")
     for name in model.sensors:
+        if model.sensors[name].optional:
+            given.setdefault(name, UNSEEN)
         if name not in given:
             raise CogmapError(f"observation: key {name!r} is missing; give {_keys(model)}")
     values = {name: _sensed(sensor.check, given.pop(name)) for name, sensor in model.sensors.items()}
@@ -69,6 +71,7 @@ def percept_of(
         turn=values.get("turn"),
         moved=values.get("moved", False),
         cost=values.get("cost"),
+        costs=values.get("costs"),
     )
 
 
@@ -132,6 +135,20 @@ def _number(name: str, least: float) -> Callable[[Any, GenerativeModel], float]:
     return number
 
 
+def _costs(value: Any, model: GenerativeModel) -> tuple[float | None, ...]:
+    names = model.motions.names
+    given = [value.get(name) for name in names] if isinstance(value, Mapping) else value
+    try:
+        costs = [None if each is None or each is np.ma.masked else float(each) for each in given]
+    except (TypeError, ValueError):
+        costs = []
+    if len(costs) != len(names) or not all(cost is None or (isfinite(cost) and cost >= 0.0) for cost in costs):
+        raise CogmapError(
+            f"observation: 'costs' is {_short(value)}; give each action a finite number of 0 or more, or None"
+        )
+    return tuple(costs)
+
+
 def _short(value: Any) -> str:
     return " ".join(repr(value).split())
 
@@ -143,5 +160,6 @@ _SAID: dict[str, Callable[[Any, GenerativeModel], Any]] = {
     "turn": _number("turn", -np.inf),
     "moved": _moved,
     "cost": _number("cost", 0.0),
+    "costs": _costs,
 }
 """What an observation may say of the move besides, and what reads it."""

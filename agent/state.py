@@ -110,3 +110,16 @@ class State:
             return None
         means = {stay: 0.0} | {action: spent / many for action, (many, spent) in self.costs.items()}
         return np.array([means.get(action, total / times) for action in range(actions)])
+
+    def prices(self) -> NDArray[np.float64] | None:
+        """`[K]` what each action is expected to cost from here, in usual moves; None where nobody says.
+
+        A usual move is the mean of those so far, or else of those that are foreseen.
+        """
+        told = None if self.percept is None else self.percept.costs
+        known = [cost for cost in told or () if cost]
+        if told is None or not known:
+            return None
+        times, total = (sum(parts) for parts in zip((0, 0.0), *self.costs.values(), strict=True))
+        usual = total / times if total else sum(known) / len(known)
+        return np.array([1.0 if cost is None else cost / usual for cost in told])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, cast
+from typing import Any, Self, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..inference import Belief
 from ..model import UNSEEN, CogmapError, Motions
 from .agent import Agent
+from .packing import Arrays
 from .perceiving import checked
 
 SURPRISE = 3.0
@@ -27,7 +28,8 @@ class TurningAgent(Agent):
     While everything fits it is an `Agent`. Where what it senses fits another known place, or the same places in a frame
     turned by quarters, far better than the place where it should be, its map is left alone: a filter over (place, turn)
     takes in what is sensed, it goes where that tells most, and once the turn is certain it goes on in that frame, told
-    that it was moved. A turn is not saved: a loaded agent takes its frame to be that of its map.
+    that it was moved. A `turn` in an observation, in degrees clockwise as it was measured, turns the frame by the
+    nearest quarter.
 
     Attributes:
         turn: quarter turns, from up to right, of what the body calls up in the frame of the map.
@@ -37,8 +39,10 @@ class TurningAgent(Agent):
         CogmapError: the actions are not four quarter turns of one another, and staying.
     """
 
-    def __init__(self, motions: Any, **parts: Any) -> None:
-        super().__init__(motions, **parts)
+    _frame_turns = True
+
+    def _assemble(self, *parts: Any, **named: Any) -> None:
+        super()._assemble(*parts, **named)
         self._turns = turns_of(self.map.motions)
         self.turn = 0
         self._sought: NDArray[np.float64] | None = None  # [visited places, 4]
@@ -56,7 +60,11 @@ class TurningAgent(Agent):
 
     def step(self, observation: Mapping[str, Any]) -> int:
         """As `Agent.step`; actions and ways are those of the body's frame."""
+        return self._whole(lambda: self._step(observation))
+
+    def _step(self, observation: Mapping[str, Any]) -> int:
         sensed = checked(observation, self.map)
+        self._turn_by(round(sensed.get("turn", 0.0) / 90.0) % 4)
         fits = self._fits(sensed) if self.steps else None
         if fits is None or not (self.searching or self._surprised(fits)):
             return self._own(observation)
@@ -72,6 +80,13 @@ class TurningAgent(Agent):
         self._done = self._telling(sensed)
         return self._done
 
+    def _turn_by(self, quarters: int) -> None:
+        """The body has turned by so many quarters after its last move, and knows it."""
+        self.turn = (self.turn + quarters) % 4
+        self._done = int(np.flatnonzero(self._turns[quarters] == self._done)[0])  # as it would be called now
+        if self._sought is not None:
+            self._sought = np.roll(self._sought, quarters, axis=1)
+
     def _own(self, observation: Mapping[str, Any]) -> int:
         """The step of an agent whose frame is known."""
         if self.turn and "open" in observation:
@@ -81,6 +96,37 @@ class TurningAgent(Agent):
         action = super().step(observation)
         self._done = int(np.flatnonzero(self._turns[self.turn] == action)[0])
         return self._done
+
+    # -- going back, and files -----------------------------------------------------------------------------
+
+    def _kept(self) -> Any:
+        return self.turn, self._sought, self._done
+
+    def _put_back(self, kept: Any) -> None:
+        self.turn, self._sought, self._done = kept
+
+    def state(self) -> tuple[dict[str, Any], Arrays]:
+        """As of an `Agent`, and how its frame is turned."""
+        header, arrays = super().state()
+        sought = None if self._sought is None else self._sought.tolist()
+        return {**header, "turning": {"turn": self.turn, "done": self._done, "sought": sought}}, arrays
+
+    @classmethod
+    def from_state(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], **parts: Any) -> Self:
+        """The agent that `state` took apart; see `load`."""
+        told: Mapping[str, Any] = header.get("turning", {"turn": 0, "done": header["state"]["action"], "sought": None})
+        agent = super().from_state({k: v for k, v in header.items() if k != "turning"}, arrays, **parts)
+        done = agent.map.motions.stay if told["done"] is None else told["done"]
+        sought = None if told["sought"] is None else np.array(told["sought"], dtype=np.float64)
+        whole = all(isinstance(number, int) and not isinstance(number, bool) for number in (told["turn"], done))
+        shape = (len(agent.map.visited_places), 4)
+        sound = sought is None or (sought.shape == shape and (sought >= 0.0).all() and abs(sought.sum() - 1.0) < 1e-6)
+        if not (whole and 0 <= told["turn"] < 4 and 0 <= done < len(agent.map.motions) and sound):
+            raise CogmapError("its frame is turned as none can be")
+        agent._put_back((told["turn"], sought, done))
+        return agent
+
+    # -- where, and turned how -----------------------------------------------------------------------------
 
     def _turned(self, ways: Any, turn: int) -> tuple[Any, ...]:
         """What is sensed of ways, in the order of the map's actions, for a body turned so."""

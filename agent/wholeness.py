@@ -32,6 +32,7 @@ class Before:
         plan: the last one.
         rng, drawn: the generator, and where it was.
         records: how many the trace had.
+        kept: what else the agent has.
     """
 
     model: Savepoint
@@ -41,6 +42,7 @@ class Before:
     rng: np.random.Generator
     drawn: Any
     records: int
+    kept: Any
 
 
 def before_step(
@@ -50,11 +52,12 @@ def before_step(
     plan: Plan | None,
     rng: np.random.Generator,
     records: int,
+    kept: Any,
 ) -> Before:
     """How an agent is now; nothing of it is changed."""
     window = deque(state.window, maxlen=state.window.maxlen)
-    kept = replace(state, window=window)
-    return Before(savepoint(map_), recognition.savepoint(), kept, plan, rng, rng.bit_generator.state, records)
+    then = replace(state, window=window)
+    return Before(savepoint(map_), recognition.savepoint(), then, plan, rng, rng.bit_generator.state, records, kept)
 
 
 def undo_step(before: Before, map_: CognitiveMap, recognition: Recognition) -> None:
@@ -81,7 +84,7 @@ class Whole(Wired):
             return work()
         self._check_whole()
         map_, state = self.map, self._state
-        before = before_step(map_, self._recognition, state, self._plan, self.rng, len(self.trace))
+        before = before_step(map_, self._recognition, state, self._plan, self.rng, len(self.trace), self._kept())
         try:
             self._torn = IN_STEP
             result = work()
@@ -93,6 +96,13 @@ class Whole(Wired):
                 self._go_back(before, error)
             raise
 
+    def _kept(self) -> Any:
+        """What a kind of agent has besides, and steps may replace."""
+        return None
+
+    def _put_back(self, kept: Any) -> None:
+        """Have it as it was."""
+
     def _go_back(self, before: Before, error: BaseException) -> None:
         """As it was before; a second interrupt in the middle is waited out."""
         self._torn = f"left in the middle of a step by a {type(error).__name__}"
@@ -102,6 +112,7 @@ class Whole(Wired):
                 self._state, self._plan, self.rng = before.state, before.plan, before.rng
                 self._cache = LocalCache(self.map, self.settings.look_ahead)
                 del self.trace[before.records :]
+                self._put_back(before.kept)
                 self._torn = None
                 return
             except CogmapError as why:

@@ -13,6 +13,7 @@ from ..model import (
     STEPS,
     CogmapError,
     CognitiveMap,
+    Contexts,
     FactorGraph,
     Growth,
     Motions,
@@ -138,6 +139,12 @@ class Wired:
     def learned_rates(self) -> tuple[RateOf, ...]:
         """What it has learned of how reliable its sensors, its moves and the ways of this world are."""
         return tuple(self._recognition.rates)
+
+    @property
+    def contexts(self) -> dict[Hashable, float]:
+        """Probability of each context, as it believes now; empty where its map knows of none."""
+        found = [sensor for sensor in self.map.sensors.values() if isinstance(sensor, Contexts)]
+        return found[0].belief(self.belief.places) if found else {}
 
     def steps_in(self, place: int) -> tuple[int, ...]:
         """The last steps, a handful at most, at which it was in a place of its map, as it believes now.

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from .chart_frontier import ChartFrontier
 from .cscg import CscgAgent, CscgSettings
+from .cue_optimum import CueOptimum
 from .frontier import FrontierAgent
 from .habit import HabitAgent
 from .random_walk import RandomAgent
 
-__all__ = ["ChartFrontier", "CscgAgent", "CscgSettings", "FrontierAgent", "HabitAgent", "RandomAgent"]
+__all__ = ["ChartFrontier", "CscgAgent", "CscgSettings", "CueOptimum", "FrontierAgent", "HabitAgent", "RandomAgent"]

@@ -3,8 +3,9 @@
     python benchmarks/long.py
     python benchmarks/long.py plain noise --steps 50000 --json long.json
 
-`plain`: an explorer in 3x3 that walks on. `labels`: a label never seen before at each step. `alike`: a hall in which
-all rooms look alike. `moved`: put into a room at random before each step. `noise`: a tenth of all sights, doors and
+`plain`: an explorer in 3x3 that walks on. `cell`: one room without doors that shows a label never seen before at each
+step; `labels`: such labels in 3x3, each of which it takes for a place never seen. `alike`: a hall in which all rooms
+look alike. `moved`: put into a room at random before each step. `noise`: a tenth of all sights, doors and
 moves of 4x4_alias go wrong, and now and then it is moved. Each walks in a process of its own. `first_ms` and `last_ms`
 are medians over the second and the last tenth of the steps, `growth` is what the process holds at the end over what it
 held after a fifth; `places` are those that the map says were visited, of so many `rooms`.
@@ -48,7 +49,7 @@ def walk(form: str, steps: int, seed: int) -> Row:
     for step in range(steps):
         if displaced:
             observation = world.displace(maze.rooms[int(rng.integers(len(maze.rooms)))])
-        if form == "labels":
+        if form in ("labels", "cell"):
             observation = {**observation, "sight": f"label {step}"}
         begin = time.process_time()
         action = agent.step(observation)
@@ -67,6 +68,7 @@ def walk(form: str, steps: int, seed: int) -> Row:
 
 FORMS: dict[str, tuple[Maze, dict[str, float], bool]] = {
     "plain": (MAZES["3x3"], {}, False),
+    "cell": (Maze("cell", {(0, 0): 0}), {}, False),
     "labels": (MAZES["3x3"], {}, False),
     "alike": (hall(4, 4, sights=1, rng=np.random.default_rng(0)), {}, False),
     "moved": (MAZES["4x4"], {}, True),

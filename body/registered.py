@@ -97,10 +97,17 @@ class RegisteredWorld(gym.Env[Observation, Any]):
 
     def _observation(self) -> Observation:
         told, ways = self._percept, [self._percept.ways[way] for way in range(DOORS)]
-        seen: Observation = {"sight": self.body.room, "open": [*ways, True]}
+        seen: Observation = {
+            "sight": self.body.room,
+            "open": [*ways, True],
+            "costs": [*map(self._cost, range(DOORS)), None],
+        }
         if told.moved:
             return {**seen, "moved": True}
-        return seen if told.outcome is None else {**seen, "outcome": told.outcome}
+        return seen if told.outcome is None else {**seen, "outcome": told.outcome, "cost": told.steps}
+
+    def _cost(self, way: int) -> float | None:
+        return self.body.cost(way) if self._percept.ways[way] else None
 
     def _info(self) -> dict[str, Any]:
         return {"low_level_steps": self.body.steps, "reached": self.body.reward > 0.0}

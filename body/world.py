@@ -132,7 +132,9 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
         percept = self._percept
         ways = {_NAMES[(way + self._turn) % 4]: is_open for way, is_open in percept.ways.items()}
         seen: Observation = {"sight": self._label(percept.sight), "open": [ways.get(n, True) for n in GRID.names]}
-        return seen if percept.outcome is None else {**seen, "outcome": percept.outcome}
+        costs = {_NAMES[(way + self._turn) % 4]: self.body.cost(way) for way in range(4)}
+        seen = {**seen, "costs": [costs.get(n) for n in GRID.names]}
+        return seen if percept.outcome is None else {**seen, "outcome": percept.outcome, "cost": percept.steps}
 
     def _label(self, sight: Any) -> Any:
         if sight is None:

@@ -44,8 +44,8 @@ class IdRun(Record):
 
 
 def is_registered(world: str) -> bool:
-    """Whether a world is called as environments of Gymnasium are, such as `MiniGrid-FourRooms-v0`."""
-    return _ID.fullmatch(world) is not None
+    """Whether a world is called as environments of Gymnasium are that are no mazes, such as `MiniGrid-FourRooms-v0`."""
+    return _ID.fullmatch(world) is not None and not world.startswith("cogmap/")
 
 
 def run_id(

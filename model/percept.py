@@ -27,6 +27,7 @@ class Percept:
         turn: what it measured of a turn.
         moved: the agent is told that it was moved.
         cost: what the move cost.
+        costs: what each action is expected to cost from here; None of those of which nobody knows, or of all.
     """
 
     action: int | None = None
@@ -38,6 +39,7 @@ class Percept:
     turn: float | None = None
     moved: bool = False
     cost: float | None = None
+    costs: tuple[float | None, ...] | None = None
 
     @property
     def open(self) -> tuple[bool | float | None, ...] | None:

@@ -94,8 +94,9 @@ def window_graph(model: GenerativeModel, window: Sequence[Slice]) -> FactorGraph
             graph.variable(f"p{t}", [model.pose.positions[i] for i in slice_.positions.tolist()], time=t)
         if at == 0:
             _prior(graph, slice_)
+            _emit(graph, slice_, [table for table in slice_.tables if table.domain])
         else:
-            _emit(graph, slice_)
+            _emit(graph, slice_, slice_.tables)
     return graph
 
 
@@ -107,11 +108,13 @@ def _prior(graph: FactorGraph, slice_: Slice) -> None:
     graph.factor("Q", scope, values, kind="prior", equation=equation)
 
 
-def _emit(graph: FactorGraph, slice_: Slice) -> None:
-    for table in slice_.tables:
+def _emit(graph: FactorGraph, slice_: Slice, tables: Sequence[Table]) -> None:
+    for table in tables:
+        if table.domain:
+            graph.variable(table.scope[0], table.domain, time=slice_.step)
         if table.kind == "displacement":
             graph.variable(table.scope[0], (False, True), time=slice_.step)
         for label in table.observed:
             graph.variable(table.scope[0], (label,), time=slice_.step, observed=True)
-    for table in slice_.tables:
+    for table in tables:
         graph.factor(table.name, table.scope, table.array, kind=table.kind, equation=table.equation)

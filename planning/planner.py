@@ -103,6 +103,7 @@ class Planner:
         structure: MapHypotheses | None = None,
         costs: NDArray[np.float64] | None = None,
         unseen: Sequence[bool] = (),
+        prices: NDArray[np.float64] | None = None,
     ) -> Plan:
         """Cut the local model out of a map, make policies, evaluate them, choose one.
 
@@ -122,6 +123,7 @@ class Planner:
             structure: hypotheses about the map, which policies may tell apart.
             costs: `[K]` what each action is expected to cost, for terms that ask.
             unseen: for each action, whether no sensor tells of its way, so that it is worth a try; none, unless told.
+            prices: `[K]` what each action is expected to cost from here, in usual moves; all 1 unless told.
 
         Raises:
             CogmapError: what `local_model`, the generator or `policy_posterior` raise.
@@ -142,6 +144,7 @@ class Planner:
             costs=costs,
             explorer=None if self.explorer is None else self.explorer.found,
             unseen=unseen,
+            prices=prices,
         )
         return self._decide(model, precision, rng)
 

@@ -8,6 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
+from cogmap.inference import TrackerOptions
+from cogmap.inference.hypotheses.extending import SHOWN
+from cogmap.inference.hypotheses.tracker import DECIDED
 from cogmap.model import CogmapError, GrowthEvent, growth_between
 from cogmap.model.growth_log import GrowthLog
 from cogmap.model.information import KnownInformation, dirichlet_information
@@ -84,9 +87,37 @@ def test_what_is_known_of_information_is_bounded_and_right() -> None:
     assert known._known
 
 
+def test_a_place_has_counts_of_so_many_labels() -> None:
+    agent = Agent(GRID, settings=Settings(look_ahead=1, hypotheses=TrackerOptions(most=2)), seed=0)
+    for step in range(96):
+        agent.step({"sight": ("new", step) if step % 3 else "usual", "open": [False] * 4 + [True]})
+    for h in agent._recognition.tracker.hypotheses:
+        counts = h.places[0].sights[0]
+        assert len(counts) == SHOWN
+        assert h.places[0].label() == agent.map.sights.find("usual")
+        assert agent.steps - 1 in h.places[h.here].recent
+
+
+def test_what_was_open_for_long_is_decided() -> None:
+    """Those that go back to one hypothesis are left, as are more of them, and each is a beginning from then on."""
+    agent = Agent(GRID, settings=Settings(look_ahead=1), seed=0)
+    agent.step({"sight": 0, "open": [True] * 5})
+    tracker = agent._recognition.tracker
+    found = [tracker.best.fork() for _ in range(3)]
+    for h, clan, weight in zip(found, (7, 8, 8), (-0.7, -0.9, -2.0), strict=True):
+        h.clan, h.weight = clan, weight
+    tracker.time = DECIDED - 1
+    assert tracker._decided(found) == found
+    tracker.time = DECIDED
+    left = tracker._decided(found)
+    assert (left, [h.clan for h in left]) == (found[1:], [0, 1])
+    tracker.time, tracker.best.clan = 1, 5
+    assert Agent.from_state(*agent.state())._recognition.tracker.best.fork().clan == 5
+
+
 def test_a_new_sight_each_step_leaves_nothing_behind_in_the_module() -> None:
     agent, other = Agent(GRID, seed=0), Agent(GRID, seed=0)
-    for step in range(100):
+    for step in range(50):
         agent.step({"sight": ("new", step), "open": [False] * 4 + [True]})
     kept = agent.map._context.information
     assert sum(sys.getsizeof(key) + row.nbytes for (key, _), row in kept._known.items()) <= kept.most

@@ -217,6 +217,21 @@ def test_whatever_is_no_percept_is_refused_in_a_line_and_leaves_the_agent_as_it_
     assert all(np.array_equal(arrays[name], again[name]) for name in arrays)
 
 
+def test_of_ways_alike_the_cheapest_from_here_is_taken(tmp_path: Any) -> None:
+    names, seen = [*GRID], {"sight": "hall", "open": [True] * len(GRID)}
+    for cheap in ("left", "down", "up"):
+        costs = {name: 2.0 if name == cheap else 6.0 for name in names if name != "stay"}
+        for told in (costs, [costs.get(name) for name in names]):
+            agent = Agent(GRID, seed=1)
+            agent.perceive({**seen, "costs": told})
+            agent.save(tmp_path / "agent.npz")
+            assert names[Agent.load(tmp_path / "agent.npz").act()] == cheap
+            assert names[agent.act()] == cheap
+    for bad in ([1.0], {"up": -1.0}, [np.nan] * 5, "dear"):
+        with pytest.raises(CogmapError, match=r"'costs' is .*; give each action a finite number of 0 or more, or None"):
+            agent.step({**seen, "costs": bad})
+
+
 def test_what_moves_cost_is_counted_and_kept(tmp_path: Any) -> None:
     agent = Agent(GRID, planner=Planner(terms=[*TERMS, Cost(price=0.5)]), seed=0)
     seen = {"sight": "hall", "open": walls("right", "left")}

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import copy
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from cogmap.agent import Agent, TurningAgent
+from cogmap.agent import Agent, Settings, TurningAgent
+from cogmap.agent.storage import write
 from cogmap.body import embodied, load_embodied
 from cogmap.experiments import kidnap, navigate
 from cogmap.model import UNSEEN, CogmapError
 from cogmap.worlds import GRID, load_world
+from interrupts import content, lines_of, was_interrupted
 
 TURNED = ("up", "right", "down", "left")
 
@@ -85,3 +90,80 @@ def test_bodies_put_elsewhere_with_another_heading() -> None:
     moved = kidnap(embodied("4x4_alias", turned=True), 3)
     assert (moved.recovered, moved.map_intact, moved.steps_certain_but_wrong) == (True, True, 0)
     assert np.isfinite(moved.steps_to_recover or 0)
+
+
+@cache
+def _walked() -> tuple[Turned, TurningAgent]:
+    world, agent = Turned("3x3_alias", 1), TurningAgent(GRID, settings=Settings(look_ahead=2), seed=1)
+    for step in range(26):
+        if step == 18:
+            world.turn, world.seen = 1, world.world.displace((1, 1))
+        world.step(agent.step(world.observe()))
+    assert agent.turn == 1
+    return world, agent
+
+
+def walked() -> tuple[Turned, TurningAgent]:
+    """One whose frame has turned."""
+    return copy.deepcopy(_walked())
+
+
+def test_a_turn_that_was_measured_turns_the_frame() -> None:
+    world, agent = Turned("4x4_alias", 1), TurningAgent(GRID, seed=1)
+    for _ in range(30):
+        world.step(agent.step(world.observe()))
+    for degrees in (90, -10, 185, 80.5):
+        world.turn = (world.turn + round(degrees / 90)) % 4
+        world.step(agent.step({**world.observe(), "turn": degrees}))
+        assert (agent.turn, agent.searching, agent.belief.moved < 0.1) == (world.turn, False, True)
+    assert len(agent.map.places) == 16
+
+
+def test_an_agent_whose_frame_does_not_turn_says_so() -> None:
+    agent, seen = Agent(GRID, seed=0), {"sight": 0, "open": [True] * 5}
+    agent.step({**seen, "turn": 0.0})
+    with pytest.raises(CogmapError, match=r"'turn' is 90\.0, and the frame of this agent does not turn; leave it out"):
+        agent.step({**seen, "turn": 90})
+    assert agent.steps == 1
+
+
+def test_a_turned_agent_is_saved_and_walks_on_as_it_would_have(tmp_path: Path) -> None:
+    world, agent = walked()
+    for room in world.world.maze.rooms:
+        world.turn, world.seen = 3, world.world.displace(room)
+        world.step(agent.step(world.observe()))
+        if agent.searching:
+            break
+    assert agent.searching
+    agent.save(tmp_path / "map.npz")
+    other = TurningAgent.load(tmp_path / "map.npz")
+    assert (other.turn, other.searching) == (agent.turn, True)
+    for _ in range(6):
+        action = agent.step(world.observe())
+        assert other.step(world.observe()) == action
+        world.step(action)
+    with pytest.raises(CogmapError, match=r"use TurningAgent\.load"):
+        Agent.load(tmp_path / "map.npz")
+
+
+@pytest.mark.parametrize("told", [{"turn": 4}, {"turn": True}, {"done": 9}, {"sought": [[1.0]]}, {"sought": "x"}])
+def test_turns_that_are_none_are_refused(told: dict[str, Any], tmp_path: Path) -> None:
+    header, arrays = walked()[1].state()
+    header["turning"] |= told
+    write(tmp_path / "map.npz", header, arrays)
+    with pytest.raises(CogmapError, match="is damaged"):
+        TurningAgent.load(tmp_path / "map.npz")
+
+
+def test_a_step_of_it_is_whole() -> None:
+    world, agent = walked()
+    world.turn = 3
+    seen = {**world.observe(), "turn": 90}
+    before = content(agent), agent.state()[0]["turning"]
+    lines, undone = lines_of(lambda: copy.deepcopy(agent).step(seen)), 0
+    for line in range(3, lines, lines // 5):
+        torn = copy.deepcopy(agent)
+        if was_interrupted(lambda torn=torn: torn.step(seen), line):
+            assert (content(torn), torn.state()[0]["turning"]) == before, line
+            undone += 1
+    assert undone > 2

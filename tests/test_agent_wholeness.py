@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import copy
 import random
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
-from cogmap.model import CogmapError, PredictedGrowth, Sensor, Sight, StaticGrowth, Ways
-from cogmap.planning import MapGuided, Planner
+from cogmap.model import CogmapError, Sensor, Sight, StaticGrowth, Ways
 from cogmap.worlds import MazeEnv, load_world
+from failing import CLOCK, Failing, Observation, agent_of_somebody
 from interrupts import content, lines_of, was_interrupted
 from parts import agent_with
 from walks import GRID
@@ -44,7 +44,7 @@ def test_an_interrupt_at_any_line_leaves_the_agent_before_the_step_or_after_it(s
     twin = copy.deepcopy(agent)
     before, action, after = content(agent), twin.step(seen), content(twin)
     lines = lines_of(lambda: copy.deepcopy(agent).step(seen))
-    for trial in range(14):
+    for trial in range(8):
         torn = copy.deepcopy(agent)
         stopped = was_interrupted(lambda torn=torn: torn.step(seen), rng.randrange(1, lines + 1))
         if not stopped or content(torn) == after:
@@ -97,29 +97,6 @@ def test_each_part_of_a_step_is_whole() -> None:
         assert content(agent) != before
 
 
-class Failing(Exception):  # noqa: N818
-    """Of somebody else."""
-
-
-class BadObservation(Mapping[str, Any]):
-    """Fails when it is read for the n-th time."""
-
-    def __init__(self, values: dict[str, Any], reads: int) -> None:
-        self._values, self._left = values, reads
-
-    def __getitem__(self, name: str) -> Any:
-        self._left -= 1
-        if self._left < 0:
-            raise Failing(name)
-        return self._values[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._values)
-
-    def __len__(self) -> int:
-        return len(self._values)
-
-
 class Nose(Sensor):
     """Fails when it learns, after it has remembered."""
 
@@ -137,64 +114,45 @@ class Nose(Sensor):
             raise Failing("smell")
 
 
-class Growing(PredictedGrowth):
-    """Fails once it has grown."""
-
-    fails = False
-
-    def look(self, *args: Any, **options: Any) -> list[int]:
-        new = super().look(*args, **options)
-        if self.fails:
-            raise Failing("growth")
-        return new
-
-
-class Guided(MapGuided):
-    """Fails where a flag is set."""
-
-    fails: list[bool] = []  # noqa: RUF012 - one for all
-
-    def make(self, model: Any) -> Any:
-        if self.fails:
-            raise Failing("policies")
-        return super().make(model)
-
-
-def test_what_objects_of_others_raise_leaves_the_agent_as_it_was() -> None:
-    nose, growth = Nose(), Growing()
-    agent = Agent(
-        GRID,
-        sensors=[Sight(), Ways(), nose],
-        growth=growth,
-        planner=Planner(policies=Guided()),
-        settings=Settings(look_ahead=1),
-        seed=0,
-    )
+def test_what_a_sensor_of_others_has_remembered_is_forgotten_again() -> None:
+    nose = Nose()
+    agent = Agent(GRID, sensors=[Sight(), Ways(), nose], settings=Settings(look_ahead=1), seed=0)
     seen = {"sight": 0, "open": [True] * 5, "smell": 1}
     agent.step(seen)
-
-    def assert_left_alone(observation: Any) -> None:
-        before = content(agent)
-        with pytest.raises(Failing):
-            agent.step(observation)
-        assert content(agent) == before
-        assert nose.seen == [1]
-
-    for reads in range(3):
-        assert_left_alone(BadObservation({**seen, "sight": 7}, reads))
-    nose.fails = True
-    assert_left_alone({**seen, "sight": 8})
-    nose.fails, growth.fails = False, True
-    assert_left_alone({**seen, "sight": 9})
-    growth.fails = False
-    Guided.fails.append(True)
-    try:
-        assert_left_alone({**seen, "sight": 9})
-    finally:
-        Guided.fails.clear()
+    before, nose.fails = content(agent), True
+    with pytest.raises(Failing):
+        agent.step({**seen, "sight": 9})
+    assert content(agent) == before
+    assert nose.seen == [1]
+    nose.fails = False
     agent.step({**seen, "sight": 9})
     assert list(agent.map.sights) == [0, 9]
     assert nose.seen == [1, 1]
+
+
+def test_any_call_of_a_part_or_an_observation_of_others_may_fail() -> None:
+    world, agent = load_world("3x3_alias"), agent_of_somebody()
+
+    def see() -> Observation:
+        seen = world.observe()
+        return Observation({**seen, "view": [float(seen["sight"]), 1.0]})
+
+    world.reset(seed=0)
+    for _ in range(5):
+        world.step(agent.step(see()))
+    CLOCK.set(None)
+    twin, before = copy.deepcopy(agent), content(agent)
+    action, calls, after, failed = twin.step(see()), CLOCK.calls, content(twin), set[str]()
+    for call in range(1, calls + 1, 13):
+        torn = copy.deepcopy(agent)
+        CLOCK.set(call)
+        with pytest.raises(Failing) as raised:
+            torn.step(see())
+        failed.add(str(raised.value))
+        assert content(torn) == before, failed
+        assert torn.step(see()) == action
+        assert content(torn) == after
+    assert len(failed) > 5
 
 
 def test_an_error_of_ours_stays_the_same_and_ends_when_it_is_mended() -> None:

@@ -13,6 +13,7 @@ import pytest
 
 FOLDER = Path(__file__).parent.parent / "examples"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
+NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 LECTURE = FOLDER / "lecture.ipynb"
 SAYS = {
     "body_in_minigrid": ("low-level steps: floor", "all 9 rooms in", "9 places, 9 visited"),
@@ -82,16 +83,36 @@ def test_it_is_short_and_says_what_one_learns(script: Path) -> None:
 
 def test_every_script_is_in_the_list() -> None:
     listed = re.findall(r"\((\w+\.(?:py|ipynb))\)", (FOLDER / "README.md").read_text("utf-8"))
-    assert sorted(listed) == sorted([*(script.name for script in SCRIPTS), LECTURE.name])
+    assert sorted(listed) == sorted([*(file.name for file in (*SCRIPTS, *NOTEBOOKS))])
     assert set(SAYS) == {script.stem for script in SCRIPTS}
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda notebook: notebook.stem)
+def test_notebooks_are_whole_and_keep_no_output(notebook: Path) -> None:
+    content = json.loads(notebook.read_text("utf-8"))
+    assert (content["nbformat"], len({cell["id"] for cell in content["cells"]})) == (4, len(content["cells"]))
+    assert not any(cell.get("outputs") for cell in content["cells"])  # they are made anew by the build, and not kept
+    assert "".join(content["cells"][0]["source"]).startswith("# ")
+    for cell in content["cells"]:
+        if cell["cell_type"] == "code":
+            ast.parse("".join(cell["source"]))
+
+
+def test_the_tutorial_and_a_world_of_your_own_run() -> None:
+    pytest.importorskip("mkdocs")
+    notebooks = runpy.run_path(str(FOLDER.parent / "docs" / "hooks" / "notebooks.py"))
+    tutorial, own = (notebooks["run_notebook"](FOLDER / f"{name}.ipynb") for name in ("tutorial", "own_world"))
+    printed = [cell.printed for cell in tutorial]
+    assert any("sees 5" in text for text in printed)
+    assert any("is at (0, 0)" in text for text in printed)
+    assert "6 places, map right: True" in "".join(cell.printed for cell in own)
+    assert sum("<svg" in cell.shown for cell in (*tutorial, *own)) >= 6
+    assert any(cell.shown.startswith("<iframe") for cell in own)
 
 
 def test_the_lecture_runs_and_shows_maps_plans_and_beliefs() -> None:
     pytest.importorskip("mkdocs")
     notebooks = runpy.run_path(str(FOLDER.parent / "docs" / "hooks" / "notebooks.py"))
-    content = json.loads(LECTURE.read_text("utf-8"))
-    assert (content["nbformat"], len({cell["id"] for cell in content["cells"]})) == (4, len(content["cells"]))
-    assert not any(cell.get("outputs") for cell in content["cells"])  # they are made anew, and not kept
     cells = notebooks["run_notebook"](LECTURE)
     shown = [cell.shown for cell in cells if cell.shown]
     assert len(shown) >= 6

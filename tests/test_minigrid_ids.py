@@ -150,6 +150,7 @@ def test_sweeps_and_the_command(tmp_path: Path) -> None:
     assert "rooms visited" in cogmap("explore", name, "--view", "rgb").stdout
     assert is_registered(name)
     assert not is_registered("4x4_alias")
+    assert not is_registered("cogmap/4x4-v0")
 
 
 @pytest.mark.parametrize(

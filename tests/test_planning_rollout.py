@@ -18,6 +18,7 @@ from cogmap.planning import (
     SelfAvoiding,
     StateInformation,
     Transitions,
+    WayThere,
     evaluate,
     evaluate_plain,
     rollout,
@@ -200,6 +201,16 @@ def test_ways_and_further_sensors_tell_a_lost_agent_where_it_is() -> None:
     assert np.log(2) < told(noisy) < exact  # a bound from below
     sure = replace(model, belief=np.eye(4)[0], blocked=blocked, looks=True)
     assert told(sure) == pytest.approx(0.0)
+
+
+def test_the_first_step_of_a_way_costs_what_it_costs_here() -> None:
+    model = replace(random_model(1, motions=LINE, look_ahead=3), discount=1.0, prices=np.array([1.5, 0.25, 1.0]))
+    policies = Policies(np.array([[0, 1, 2], [1, 0, 2], [1, 1, 0], [2, 1, 2]]))
+    energy = evaluate(model, policies, [WayThere(cost=2.0)])
+    np.testing.assert_allclose(energy["way_there"], [5.0, 2.5, 4.5, 2.0])
+    np.testing.assert_allclose(energy.G, evaluate_plain(model, policies, [WayThere(cost=2.0)]).G)
+    with pytest.raises(CogmapError, match=r"prices has a price below 0"):
+        replace(model, prices=np.array([-1.0, 0.0, 0.0])).check()
 
 
 def test_the_cost_of_moves_is_a_term_that_can_be_asked_for() -> None:

@@ -22,6 +22,7 @@ from toy_study import NASTY, Tabled, Toy
 NAMES = [
     "buildings",
     "cost",
+    "cue",
     "distances",
     "donut",
     "exploration",

@@ -7,6 +7,7 @@ from .base import PlaceEnv
 from .behaviour import behaviour, distinguishable
 from .builtin import MAZES
 from .colours import label_colour
+from .cue_maze import NOTHING, REWARD, CueMaze, best_cue_action
 from .drawing import draw
 from .environment import MazeEnv
 from .errors import WorldError
@@ -34,11 +35,14 @@ __all__ = [
     "MOST_TOUR",
     "MOST_WALKED",
     "NOISES",
+    "NOTHING",
     "POSES",
+    "REWARD",
     "CanClose",
     "CanDisplace",
     "Chart",
     "ChartPart",
+    "CueMaze",
     "Door",
     "GraphWorld",
     "HasChart",
@@ -59,6 +63,7 @@ __all__ = [
     "World",
     "WorldError",
     "behaviour",
+    "best_cue_action",
     "comb",
     "covering_steps",
     "covering_walk",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from .maze import Maze
 from .protocol import Chart
 from .sights import Sights, give_sights
 from .text_styles import read_maze
+
+_ID = re.compile(r"^cogmap/(\w+)-v0$")
 
 
 def load_world(
@@ -32,7 +35,8 @@ def load_world(
     """The world of a built-in name, or else of a maze or graph file: a `MazeEnv` or a `GraphWorld`.
 
     Args:
-        name_or_path: a name of `MAZES`; a graph file (JSON, GraphML, YAML, see `read_graph`); or a maze text file.
+        name_or_path: a name of `MAZES`, or its id such as `cogmap/3x3-v0`; a graph file (JSON, GraphML, YAML, see
+            `read_graph`); or a maze text file.
         render_mode: of mazes; see `MazeEnv`.
         format: of a maze file: `"text"`, `"commas"` or `"ascii"`; see `read_maze`.
         sights: for places without a sight of their own: `"distinct"`, `"ways"`, or how many at random.
@@ -46,8 +50,8 @@ def load_world(
     """
     if sights is not None:
         give_sights(sights, ())  # is it any of the three
-    if isinstance(name_or_path, str) and name_or_path in MAZES:
-        return MazeEnv(MAZES[name_or_path], render_mode=render_mode)
+    if isinstance(name_or_path, str) and (name := _ID.sub(r"\1", name_or_path)) in MAZES:
+        return MazeEnv(MAZES[name], render_mode=render_mode)
     if not isinstance(name_or_path, (str, Path)):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise WorldError(f"{name_or_path!r} is no world; give a name or a path, or MazeEnv(maze)")
     if not _exists(Path(name_or_path)):

@@ -15,6 +15,7 @@ from .navigate import navigate_command
 from .replay import replay_command
 from .show import show_command
 from .study import study_command
+from .walk import walk_command
 from .worlds import worlds_command
 
 ABOUT = "Agents that build their own map, as explicit discrete factor graphs."
@@ -41,6 +42,7 @@ def _cogmap(context: typer.Context, version: Version = False) -> None:  # pyrigh
 for _command in (
     worlds_command,
     show_command,
+    walk_command,
     explore_command,
     navigate_command,
     kidnap_command,

@@ -28,6 +28,10 @@ Pose = Annotated[
     str | None,
     typer.Option(metavar="NAME", help="How places lie to each other: lattice, or none (cogmap only). By the world."),
 ]
+Cost = Annotated[
+    str,
+    typer.Option(metavar="NAME", help="What exploring takes little of: steps, or metres in a graph (cogmap only)."),
+]
 Agent = Annotated[
     str,
     typer.Option(metavar="NAME", help="cogmap, frontier, random, cscg, cscg_pose, cscg_random or cscg_pose_random."),

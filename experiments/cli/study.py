@@ -19,7 +19,7 @@ Name = Annotated[
     typer.Argument(
         metavar="NAME",
         help="exploration, rooms, growth, cost, distances, identity, localisation, "
-        "goals, donut, tolman, martinet, insight, mice, minigrid, buildings; or all.",
+        "goals, donut, tolman, martinet, insight, mice, minigrid, buildings, cue; or all.",
         show_default=False,
     ),
 ]

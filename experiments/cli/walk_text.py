@@ -32,7 +32,7 @@ def show_walk(chart: Chart, walk: Walk, *, agent: str) -> None:
     to.print(f"[bold]{escape(chart.name)}[/bold]: {rooms}, agent {agent}, seed {run.seed}", highlight=False)
     if isinstance(chart, Maze):
         to.print(_maze(chart, walk.path, to.width))
-    to.print(_path(chart, walk.path, unicode=_unicode(to)), soft_wrap=False)
+    to.print(_path(chart, walk.path, unicode=has_unicode(to)), soft_wrap=False)
     steps = {
         "every room visited after": run.steps_to_visit_all,
         "every transition learned after": run.steps_to_learn,
@@ -133,11 +133,12 @@ def _energies(agent: Agent, to: Console) -> dict[str, Text]:
     lines: dict[str, Text] = {}
     for name, values in series.items():
         low, high = (round(value, 2) + 0.0 for value in (min(values), max(values)))  # + 0.0: no -0.00
-        lines[name] = Text(sparkline(values, width=width, unicode=_unicode(to)))
+        lines[name] = Text(sparkline(values, width=width, unicode=has_unicode(to)))
         unit = "" if name == "certainty" else " nats"
         lines[name].append(f" {low:.2f} to {high:.2f}{unit}", style="dim")
     return lines
 
 
-def _unicode(to: Console) -> bool:
+def has_unicode(to: Console) -> bool:
+    """Whether a terminal can show more than ASCII."""
     return to.encoding.lower().startswith("utf")

@@ -101,6 +101,16 @@ def label_probability(chances: Chances, sensor: int, counts: SightCounts, label:
     return exp(unit * (counts.get(label, 0.0) - most)) / total
 
 
+def label_shares(chances: Chances, sensor: int, counts: SightCounts) -> dict[int, float]:
+    """`label_probability` of each label that was read there."""
+    if len(counts) < 2:
+        return {label: label_probability(chances, sensor, counts, label) for label in counts}
+    unit, most = chances.sight_unit[sensor], max(counts.values())
+    odds = {label: exp(unit * (count - most)) for label, count in counts.items()}
+    total = max(chances.labels[sensor] - len(counts), 0) * exp(-unit * most) + sum(odds.values())
+    return {label: p / total for label, p in odds.items()}
+
+
 def new_sight_probability(h: Hypothesis, sensor: int, reading: Reading) -> float:
     """P(reading | a place never seen): what it shows is drawn by a Chinese restaurant process, and may be misread."""
     chances, misread = h.chances, h.chances.misread[sensor]

@@ -8,12 +8,15 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_probability, odds_beyond, probability, same_door, was_rebuilt, way_odds
+from .evidence import label_shares, odds_beyond, probability, same_door, was_rebuilt, way_odds
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
 from .scheme import Reading, Sensed
 from .squares import across, around, tally
+
+SHOWN = 64
+"""Labels of which a place has counts at most; of what was read there once in so many, the first is forgotten."""
 
 
 def begin(h: Hypothesis, sensed: Sensed, time: int) -> None:
@@ -250,14 +253,21 @@ def seen(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -
     if reading is None:
         return counts
     if isinstance(reading, int):
-        return {**counts, reading: counts.get(reading, 0.0) + 1.0}
+        return _bounded({**counts, reading: counts.get(reading, 0.0) + 1.0}, reading)
     misread, right = chances.misread[sensor], chances.right[sensor]
     other, more = misread * sum(reading.values()), dict(counts)
     for label, likelihood in reading.items():
         worth = log(1.0 + (right - misread) * likelihood / other) / chances.sight_unit[sensor]
         if worth > 1e-3:
             more[label] = more.get(label, 0.0) + worth
-    return more
+    return _bounded(more)
+
+
+def _bounded(counts: SightCounts, last: int | None = None) -> SightCounts:
+    """The counts without the least of them, where they are too many; the label that was read last stays."""
+    while len(counts) > SHOWN:
+        del counts[min((label for label in counts if label != last), key=counts.__getitem__)]
+    return counts
 
 
 def _read(h: Hypothesis, way: Way, reading: float) -> Way:
@@ -309,10 +319,9 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     for sensor, counts in enumerate(place.sights):
         if any(count % 1.0 for count in counts.values()):
             continue  # likelihoods say themselves how sure they are
-        for label, count in counts.items():
-            p = label_probability(chances, sensor, counts, label)
-            misread += count * (1.0 - p)
-            read += count * p
+        for label, p in label_shares(chances, sensor, counts).items():
+            misread += counts[label] * (1.0 - p)
+            read += counts[label] * p
     stayed = _stayed(h, number, place) if any(way.stays for way in place.ways) else (0.0, 0.0)
     share = Share(opened, blocked, wrong, right, misread, read, beside, shut, undone, one_way, *stayed)
     return Place(place.sights, place.ways, place.frame, place.position, place.recent, place.into, share)

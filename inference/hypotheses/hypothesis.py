@@ -54,10 +54,11 @@ class Hypothesis:
         origin: the hypothesis before the last step, if this one only extends it.
         apart: it says of some place that it is not where the pose says; that may be all that it differs in.
         touched: numbers of the records changed since it was forked.
+        clan: the same of those that go back to one hypothesis at the last time that was decided.
     """
 
     __slots__ = (
-        "apart", "at", "chances", "counts", "crowd", "digest", "here", "kinds", "links", "looks", "origin",
+        "apart", "at", "chances", "clan", "counts", "crowd", "digest", "here", "kinds", "links", "looks", "origin",
         "periods", "places", "scheme", "shown", "size", "touched", "undo", "weight",
     )  # fmt: skip
 
@@ -75,7 +76,7 @@ class Hypothesis:
         self.weight = 0.0
         self.size = self.links = self.digest = 0
         self.origin: Hypothesis | None = None
-        self.apart = False
+        self.apart, self.clan = False, 0
         self.crowd: Mapping[int, float] | None = None
         self.touched: dict[int, None] = {}
         self.chances = Chances(self.counts, [1] * scheme.sensors)
@@ -89,7 +90,7 @@ class Hypothesis:
         other.undo, other.looks = self.undo.copy(), self.looks.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
         other.origin, other.touched, other.digest = None, {}, self.digest
-        other.apart, other.crowd = self.apart, self.crowd
+        other.apart, other.crowd, other.clan = self.apart, self.crowd, self.clan
         return other
 
     @property

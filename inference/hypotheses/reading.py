@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from .branches import Lead, leads
 from .chances import Chances
-from .evidence import label_probability, probability, way_odds
+from .evidence import label_shares, probability, way_odds
 from .hypothesis import Hypothesis
 from .rates import RATE_PRIORS, WAY_MISREAD, RateCounts
 from .records import SightCounts
@@ -42,8 +42,7 @@ def where_to(h: Hypothesis, number: int, way: int) -> Lead:
 
 def label_probabilities(h: Hypothesis, number: int, *, sensor: int = 0) -> dict[int, float]:
     """P(label) of the labels that were read in a place; those never read there share what is missing to one evenly."""
-    counts = h.places[number].sights[sensor]
-    return {label: label_probability(h.chances, sensor, counts, label) for label in counts}
+    return label_shares(h.chances, sensor, h.places[number].sights[sensor])
 
 
 def whereabouts(h: Hypothesis) -> dict[int, float]:
@@ -51,6 +50,20 @@ def whereabouts(h: Hypothesis) -> dict[int, float]:
     if h.crowd is None:
         return {h.here: 1.0}
     return {number: exp(weight) for number, weight in h.crowd.items()}
+
+
+def together(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether two hypotheses have the agent in the same place, wherever their charts have that.
+
+    A place is the same where both have the agent in it since the same step, or have had it there last at the same step.
+    """
+    return one.here == other.here or _before(one) == _before(other)
+
+
+def _before(h: Hypothesis) -> int | None:
+    """When the agent was last where it is now, before now."""
+    recent = h.places[h.here].recent
+    return recent[-2] if len(recent) > 1 else None
 
 
 def ways_misread(h: Hypothesis) -> float:

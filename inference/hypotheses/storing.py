@@ -75,6 +75,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
             {
                 "periods": [[frame, [list(row) for row in rows]] for frame, rows in h.periods.items()],
                 "undo": len(h.undo),
+                "clan": h.clan,
             }
             for h in hypotheses
         ],
@@ -244,7 +245,7 @@ def _read_hypothesis(
     places, at, shown = _read_maps(scheme, source)
     h.places, h.at, h.shown = Layered(shared[0], places), Layered(shared[1], at), Layered(shared[2], shown)
     h.here, h.size, h.links, apart, *h.kinds = source.numbers(4 + scheme.sensors)
-    h.apart = bool(apart)
+    h.apart, h.clan = bool(apart), int(entry.get("clan", 0))
     h.weight, *counts = source.reals(1 + 2 * rates)
     looks = source.reals(2 * scheme.count)
     h.looks = list(zip(looks[::2], looks[1::2], strict=True))

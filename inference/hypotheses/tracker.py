@@ -21,7 +21,7 @@ from .lookback import BACK, Past, passed_over
 from .options import Change, Checkpoint, TrackerOptions
 from .pruning import merged, normalised
 from .rates import ELSEWHERE
-from .reading import whereabouts
+from .reading import together, whereabouts
 from .recharting import recharted
 from .records import NOWHERE
 from .replaying import History, doubted, without
@@ -40,6 +40,9 @@ SHARED = 16
 
 IN_VAIN = -1e6
 """Nats that are gained where something is not worth trying again for long."""
+
+DECIDED = 256
+"""Steps after which what was open is decided, or hypotheses would differ in more and more that nothing ever tells."""
 
 MANY = 4096
 """Foldings that are remembered."""
@@ -119,13 +122,12 @@ class Tracker:
     def certainty(self) -> float:
         """Probability of the hypotheses that agree with the best one on where the agent is."""
         best = self.best
-        before = _before(best)
         total = 0.0
         for h in self.hypotheses:
             if h.crowd is not None or best.crowd is not None:
                 total += exp(h.weight) * whereabouts(h).get(best.here, 0.0)
             else:
-                total += exp(h.weight) * (h.here == best.here or _before(h) == before)
+                total += exp(h.weight) * together(h, best)
         return min(total, 1.0)
 
     # -- going back, and files ----------------------------------------------------------------------------
@@ -214,10 +216,23 @@ class Tracker:
         children = [self._extended(branch, sensed) for branch in happened]
         proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
         found = merged(children, proposed)
-        found = [h for h in found if h.weight > found[0].weight - drop]
+        found = self._decided([h for h in found if h.weight > found[0].weight - drop])
         found = self._doubted_or_clear(found, previous, sensed, drop)
         best = found[0]
         self.change = Change("extended", tuple(best.touched)) if best.origin is previous else Change("revised")
+        return found
+
+    def _decided(self, found: list[Hypothesis]) -> list[Hypothesis]:
+        """Now and then those alone that go back to one hypothesis of some time ago, the one that most go back to."""
+        if self.time % DECIDED:
+            return found
+        best, mass = found[0].weight, dict[int, float]()
+        for h in found:
+            mass[h.clan] = mass.get(h.clan, 0.0) + exp(h.weight - best)
+        clan = max(mass, key=mass.__getitem__)
+        found = [h for h in found if h.clan == clan]
+        for number, h in enumerate(found):
+            h.clan = number
         return found
 
     def _doubted_or_clear(
@@ -335,9 +350,3 @@ class Tracker:
         before = self._tried.get(key)
         self._overwritten.append((key, before))
         self._tried[key] = (before or NEVER).again(h, self.time, worth)
-
-
-def _before(h: Hypothesis) -> int | None:
-    """When the agent was last where it is now, before now."""
-    recent = h.places[h.here].recent
-    return recent[-2] if len(recent) > 1 else None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .base import Context, ModelFactor, Successors, Support, Table, parts_of
 from .bearings import Bearings
+from .contexts import Contexts
 from .displacement import Displacement
 from .features import Features
 from .pose import POSES, Ahead, Lattice, NoPose, Plane, Pose
@@ -12,7 +13,13 @@ from .sight import Sight
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 from .ways import Ways
 
-SENSORS: dict[str, type[Sensor]] = {"sight": Sight, "features": Features, "ways": Ways, "bearings": Bearings}
+SENSORS: dict[str, type[Sensor]] = {
+    "sight": Sight,
+    "features": Features,
+    "ways": Ways,
+    "bearings": Bearings,
+    "contexts": Contexts,
+}
 """Kinds of sensors by name."""
 
 __all__ = [
@@ -25,6 +32,7 @@ __all__ = [
     "Ahead",
     "Bearings",
     "Context",
+    "Contexts",
     "Displacement",
     "Features",
     "Lattice",

@@ -115,6 +115,7 @@ class Table:
         kind: `sight`, `walls`, `transition`, …, as in `Factor`.
         equation: what it says.
         observed: label of the first variable of its scope, if that is observed.
+        domain: values of the first variable of its scope, if that is a latent of its own.
     """
 
     name: str
@@ -123,6 +124,7 @@ class Table:
     kind: str
     equation: str
     observed: tuple[Hashable, ...] = ()
+    domain: tuple[Hashable, ...] = ()
 
     @property
     def array(self) -> Floats:

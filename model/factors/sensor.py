@@ -11,7 +11,7 @@ from ..errors import CogmapError
 from .base import Context, Floats, Ints, ModelFactor, Support, Table
 from .transition import Transition
 
-_OF_THE_MOVE = ("moved", "taken", "outcome", "displacement", "turn", "cost")
+_OF_THE_MOVE = ("moved", "taken", "outcome", "displacement", "turn", "cost", "costs")
 _TAKEN = frozenset({"s", "p", "o", "c", "Q", "M", "places", "visits", "transition", "pose", *_OF_THE_MOVE})
 
 
@@ -28,12 +28,14 @@ class Sensor(ModelFactor):
         symbol: of its factor in the window's graph.
         variable: what its observed variable is called there, without the time step.
         kind: of that factor.
+        optional: whether an observation may leave it out, which means that it saw nothing.
 
     Raises:
         CogmapError: the name is no identifier, ends in a digit, or stands for something else already.
     """
 
     kind = "sight"
+    optional = False
 
     def __init__(self, name: str) -> None:
         if not (isinstance(name, str) and name.isidentifier() and not name[-1].isdigit() and name not in _TAKEN):  # pyright: ignore[reportUnnecessaryIsInstance]
@@ -103,6 +105,9 @@ class Sensor(ModelFactor):
 
     def learn(self, place: int, reading: Any, weight: float) -> None:
         """The reading was sensed in `place`, as far as the agent is certain (`weight`)."""
+
+    def know(self, place: int, value: Any) -> None:
+        """A map that was given says this of `place`, under the name of the sensor; None where it says nothing."""
 
     def recall(self, place: int) -> None:
         """`place` is new: note what is known of it from elsewhere."""

@@ -41,6 +41,7 @@ class Surroundings:
         unseen: for each action, whether nothing senses its way.
         look_ahead: steps that policies look ahead.
         structure: hypotheses about the map, side by side; None where there is but one.
+        prices: `[K]` what each action is expected to cost from where the agent is, in usual moves; None of all alike.
     """
 
     map: MapView
@@ -52,6 +53,7 @@ class Surroundings:
     look_ahead: int
     structure: Structure | None = None
     unseen: Sequence[bool] = ()
+    prices: Floats | None = None
 
     @property
     def tries(self) -> Mapping[int, float]:
@@ -88,6 +90,7 @@ def local_model(
     costs: Floats | None = None,
     explorer: Callable[[Surroundings], Frontier | None] | None = None,
     unseen: Sequence[bool] = (),
+    prices: Floats | None = None,
 ) -> LocalModel:
     """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
 
@@ -108,7 +111,7 @@ def local_model(
     preferences = preferences or Preferences()
     places, belief, dropped = _likeliest_starts(places, belief, starts)
     apart, frontier = Structure.of(structure), None
-    around = Surroundings(map_, cache, places, places[:0], preferences, open_, look_ahead, apart, unseen)
+    around = Surroundings(map_, cache, places, places[:0], preferences, open_, look_ahead, apart, unseen, prices)
     if explorer is not None and belief.max() >= SURE:
         frontier = explorer(replace(around, starts=places[[belief.argmax()]]))
     if frontier is not None:
@@ -155,6 +158,7 @@ def local_model(
         looks="open" in map_.sensors and len(within) <= FEW,
         costs=costs,
         frontier=frontier,
+        prices=prices,
         kept=cut.kept,
         untried=cut.untried,
     )

@@ -56,6 +56,7 @@ class LocalModel:
         frontier: the options of an agent that explores by them; None for others.
         untried: `[R, K]` nats that the first step along each way teaches, where no visit has told whether it is open;
             None where that is nothing.
+        prices: `[K]` what each action costs as the first of a policy, in usual moves; None where all cost the same.
         kept: what was worked out of places, B, blocked, successor and entered alone, for models that share them.
     """
 
@@ -84,6 +85,7 @@ class LocalModel:
     frontier: Frontier | None = None
     kept: Kept | None = field(default=None, repr=False, compare=False)
     untried: Floats | None = None
+    prices: Floats | None = None
 
     @property
     def utility(self) -> Floats:
@@ -139,6 +141,11 @@ class LocalModel:
             (
                 self.costs is None or (np.isfinite(self.costs).all() and self.costs.min() >= 0.0),
                 "costs has a cost below 0, or none",
+                "finite numbers",
+            ),
+            (
+                self.prices is None or (np.isfinite(self.prices).all() and self.prices.min() >= 0.0),
+                "prices has a price below 0, or none",
                 "finite numbers",
             ),
             (0.0 <= self.dropped < 1.0, f"dropped is {self.dropped}", "a probability below 1"),

@@ -1,0 +1,211 @@
+"""Steps that are broken off anywhere: the agent is as before the step or as after it, and walks on as its twin does.
+
+    python benchmarks/interruptions.py
+    python benchmarks/interruptions.py doubting parts --trials 3000 --seed 1 --json interruptions.json
+
+Forms are an explorer, one that is moved now and then, one that errs in everything and is in doubt, one that is lost,
+one that is told all that percepts can say, one without poses, one in the plane, one whose frame turns, and the paper's;
+`parts` fails at a call of a part or an observation of somebody else instead, all of whose methods may fail. Each trial
+takes an agent after a random number of steps, breaks its next one off before a random line of the library (`parts`: at
+a random call), compares all that the next steps depend on, and has it take `--on` steps beside a twin that was left
+alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import copy
+import random
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import networkx as nx
+import numpy as np
+from cogmap.agent import Agent, Settings, TurningAgent
+from cogmap.model import Bearings, Features, NoPose, Plane, Sight, Ways
+from cogmap.planning import Planner
+from cogmap.worlds import GraphWorld, ListedWays, MazeEnv, NoisyWorld, hall, load_world
+from machine import json_path, positive, write_json
+
+from cogmap import UNSEEN
+
+sys.path.insert(0, str(Path(__file__).parent.parent / "tests"))
+from failing import CLOCK, Failing, Observation, agent_of_somebody
+from interrupts import content, lines_of, was_interrupted
+
+Seen = dict[str, Any]
+Walk = Iterator[tuple[Agent, Seen]]
+LONGEST = 40
+
+
+def walk(world: Any, agent: Agent, see: Callable[[Seen], Seen] = dict, *, moved: int = 0, seed: int = 0) -> Walk:
+    """The agent before each step, and what it is about to see."""
+    rng = np.random.default_rng(seed)
+    observation, _ = world.reset(seed=seed)
+    for step in range(1, 10**9):
+        seen = see(observation)
+        yield agent, seen
+        observation = world.step(agent.step(seen))[0]
+        if moved and step % moved == 0:
+            rooms = world.unwrapped.maze.rooms
+            observation = world.displace(rooms[int(rng.integers(len(rooms)))])
+
+
+def explorer(seed: int) -> Walk:
+    world = load_world("4x4_alias")
+    return walk(world, Agent(world.motions, settings=Settings(look_ahead=2), seed=seed), seed=seed)
+
+
+def moved(seed: int) -> Walk:
+    world = load_world("3x3_alias")
+    return walk(world, Agent(world.motions, settings=Settings(forgetting=0.05), seed=seed), moved=5, seed=seed)
+
+
+def doubting(seed: int) -> Walk:
+    world: Any = NoisyWorld(load_world("3x3_alias"), sight=0.1, door=0.1, slip=0.1, fail=0.1, moved=0.05)
+    return walk(world, Agent(world.motions, settings=Settings(look_ahead=2), seed=seed), seed=seed)
+
+
+def lost(seed: int) -> Walk:
+    world = MazeEnv(hall(4, 5, sights=1, rng=np.random.default_rng(seed)))
+    agent = Agent(world.motions, settings=Settings(look_ahead=2), seed=seed)
+    return walk(world, agent, lambda seen: {**seen, "moved": agent.steps % 9 == 8}, seed=seed)
+
+
+def told(seed: int) -> Walk:
+    world, rng = load_world("3x3_alias"), np.random.default_rng(seed)
+    sensors = [Sight(), Sight("smell"), Features("view", size=3), Ways()]
+    agent, kinds = Agent(world.motions, sensors=sensors, seed=seed), rng.normal(size=(3, 3))
+
+    def see(seen: Seen) -> Seen:
+        number = int(seen["sight"])
+        soft = {number: 0.7, (number + 1) % 5: 0.3} if rng.random() < 0.3 else number
+        smell, said = "abc"[number % 3] if rng.random() < 0.7 else UNSEEN, {"cost": 2.0} if agent.steps else {}
+        return {**seen, "sight": soft, "smell": smell, "view": kinds[number % 3] + 0.1 * rng.normal(size=3), **said}
+
+    return walk(world, agent, see, seed=seed)
+
+
+def without_poses(seed: int) -> Walk:
+    world = load_world("3x3")
+    return walk(world, Agent(world.motions, pose=NoPose(), seed=seed), seed=seed)
+
+
+def plane(seed: int) -> Walk:
+    graph, rng = nx.grid_2d_graph(3, 4), np.random.default_rng(seed)
+    for number, node in enumerate(graph):
+        graph.nodes[node].update(sight=number % 2, position=tuple(10.0 * np.array(node) + rng.uniform(-2, 2, 2)))
+    world = ListedWays(GraphWorld.from_networkx(nx.convert_node_labels_to_integers(graph).to_directed()))
+    sensors = [Sight(), Ways(learned=True), Bearings()]
+    return walk(world, Agent(world.motions, sensors=sensors, pose=Plane(), seed=seed), seed=seed)
+
+
+def turning(seed: int) -> Walk:
+    world = load_world("3x3")
+    agent = TurningAgent(world.motions, settings=Settings(look_ahead=2), seed=seed)
+    return walk(world, agent, lambda seen: {**seen, "turn": 90 * (agent.steps % 7 == 6)}, moved=9, seed=seed)
+
+
+def paper(seed: int) -> Walk:
+    world = load_world("3x3_alias")
+    agent = Agent(world.motions, planner=Planner.paper(), settings=Settings.paper(look_ahead=3), seed=seed)
+    return walk(world, agent, seed=seed)
+
+
+def parts(seed: int) -> Walk:
+    world, rng = load_world("3x3_alias"), np.random.default_rng(seed)
+
+    def see(seen: Seen) -> Seen:
+        return {**seen, "view": np.array([float(seen["sight"]), 1.0]) + 0.01 * rng.normal(size=2)}
+
+    return walk(world, agent_of_somebody(seed), see, moved=11, seed=seed)
+
+
+FORMS: dict[str, Callable[[int], Walk]] = {
+    "explorer": explorer, "moved": moved, "doubting": doubting, "lost": lost, "told": told,
+    "no poses": without_poses, "plane": plane, "turning": turning, "paper": paper, "parts": parts,
+}  # fmt: skip
+
+
+def broken_off(agent: Agent, seen: Seen, rng: random.Random, *, calls: bool) -> bool:
+    """Break the step off somewhere; whether it was."""
+    if not calls:
+        lines = lines_of(lambda: copy.deepcopy(agent).step(seen))
+        return was_interrupted(lambda: agent.step(seen), rng.randrange(1, lines + 1))
+    CLOCK.set(None)
+    copy.deepcopy(agent).step(Observation(seen))
+    CLOCK.set(rng.randrange(1, CLOCK.calls + 1))
+    try:
+        agent.step(Observation(seen))
+    except Failing:
+        return True
+    finally:
+        CLOCK.set(None)
+    return False
+
+
+def verdict(agent: Agent, seen: Seen, rng: random.Random, *, calls: bool, on: int) -> str:
+    """`before`, `after`, or what is wrong; the agent is left alone."""
+    torn, twin = copy.deepcopy(agent), copy.deepcopy(agent)
+    before, action = _content(agent), twin.step(seen)
+    if broken_off(torn, seen, rng, calls=calls) and _content(torn) == before:
+        found = "before"
+        if torn.step(seen) != action:
+            return "goes on otherwise"
+    else:
+        found = "after"
+    if _content(torn) != _content(twin):
+        return "between"
+    for _ in range(on):
+        if twin.step(seen) != torn.step(seen):
+            return "walks on otherwise"
+    return found if _content(torn) == _content(twin) else "is another later"
+
+
+def _content(agent: Agent) -> Any:
+    if not agent._recognising:
+        header, arrays = agent.state()
+        return header, {name: values.tobytes() for name, values in arrays.items()}
+    return (*content(agent), agent.state()[0].get("turning"))
+
+
+def main(given: Sequence[str] | None = None) -> int:
+    """Break off, compare and print; 1 where an agent was left torn."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("forms", nargs="*", metavar="FORM", help=f"some of {', '.join(map(repr, FORMS))}")
+    parser.add_argument("--trials", type=positive, default=50, help="of each form")
+    parser.add_argument("--on", type=positive, default=2, help="steps that are walked on afterwards")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--json", type=json_path)
+    asked = parser.parse_args(given)
+    if unknown := [form for form in asked.forms if form not in FORMS]:
+        parser.error(f"there is no form {unknown[0]!r}; forms are {', '.join(map(repr, FORMS))}")
+    rows: list[dict[str, Any]] = []
+    for form in asked.forms or FORMS:
+        rng, begun = random.Random(f"{form} {asked.seed}"), time.process_time()
+        found: dict[str, int] = {}
+        walking = FORMS[form](asked.seed)
+        for trial in range(asked.trials):
+            if trial % 20 == 0:
+                walking = FORMS[form](asked.seed + trial)
+                ahead = rng.randrange(LONGEST)
+            else:
+                ahead = rng.randrange(3)
+            for _ in range(ahead):
+                next(walking)
+            agent, seen = next(walking)
+            result = verdict(agent, seen, rng, calls=form == "parts", on=asked.on)
+            found[result] = found.get(result, 0) + 1
+        torn = asked.trials - found.get("before", 0) - found.get("after", 0)
+        rows.append({"form": form, "trials": asked.trials, "torn": torn, "found": found})
+        each = (time.process_time() - begun) / asked.trials
+        print(f"{form:10} torn {torn} of {asked.trials}  {found}  {each:.2f} s each", flush=True)
+    write_json(asked.json, {"seed": asked.seed, "rows": rows})
+    return int(any(row["torn"] for row in rows))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
