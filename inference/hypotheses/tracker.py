@@ -244,7 +244,8 @@ class Tracker:
             floor = found[0].weight - wide
             over = passed_over((*self._past, step), self.history, sensed, narrow=drop, wide=wide, floor=floor)
             again = nlargest(self.options.most, over, key=lambda h: h.weight)
-            found = merged(found, [*again, *(fold for h in again for fold in self._folds(h, floor))])
+            folds = (fold for h in again if h.crowd is None for fold in self._folds(h, floor))
+            found = merged(found, [*again, *folds])
             self._clear, self._quiet = False, 0
         found, norm = normalised(found, drop=wide, most=self.options.most)
         self._past = (*self._past, step._replace(norm=norm))[-BACK:]

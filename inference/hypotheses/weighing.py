@@ -20,7 +20,8 @@ FACTOR = 0.6
 class Links(NamedTuple):
     """Ways between places: how many, how many of them off the chart, that do not lead back, that meet.
 
-    Those off the chart of which a way back says no more are `astray`; without poses, how many squares close, and do not.
+    Those off the chart of which a way back says no more are `astray`. Without poses, how many squares close, and do
+    not.
     """
 
     ways: int
