@@ -93,10 +93,8 @@ def test_the_first_picture_is_light(open_page: Any, pages: Path) -> None:
 
 
 def test_it_runs_in_the_frame_of_a_notebook_whose_lines_are_joined(open_page: Any, tmp_path: Path) -> None:
-    shown = show(tolman_walk())._repr_html_()
-    (tmp_path / "notebook.html").write_text(
-        f"<!DOCTYPE html><body>{' '.join(shown.splitlines())}</body>", encoding="utf-8"
-    )
+    shown = " ".join(show(tolman_walk())._repr_html_().splitlines())
+    (tmp_path / "notebook.html").write_text(f"<!DOCTYPE html><body>{shown}</body>", encoding="utf-8")
     frame = open_page(tmp_path / "notebook.html").frame_locator("iframe")
     frame.locator("#agent").wait_for()
     assert frame.locator("#count").text_content() == "1 / 300"
