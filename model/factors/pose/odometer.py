@@ -28,6 +28,9 @@ LEAST = 0.01
 GUESSED = 0.5
 """Standard deviation of a length that was not measured, over the mean length."""
 
+SHORT = 0.1
+"""Mean lengths of a way that one counts for at least among the logarithms: some places have one position."""
+
 SPREAD, FEW = 0.5, 4
 """Standard deviation of the logarithm of lengths before any was measured, and how many measurements it counts for."""
 
@@ -143,7 +146,7 @@ class Odometer:
     def measure(self, length: float) -> None:
         """A way that was not walked before is so long."""
         many, logs, squares, total, longest = self.noted.values[:5].tolist()
-        log = float(np.log(max(length, 1e-9)))
+        log = float(np.log(max(length, SHORT * (total + length) / (many + 1.0))))
         new = many + 1.0, logs + log, squares + log * log, total + length, max(longest, length)
         for at, value in enumerate(new):
             self.noted.set(at, value)
