@@ -3,8 +3,8 @@
     python benchmarks/tables.py
     python benchmarks/tables.py kidnap navigate --jobs 2
 
-It writes them there. Only rows that begin with a maze are written; what a page says of them in words is to be read again. With the present
-agent `explore`, `growth`, `kidnap` and `navigate` take a minute or two each on one idle core.
+It writes them there. Only rows that begin with a maze are written; what a page says of them in words is to be read
+again. `explore`, `growth`, `kidnap` and `navigate` take a minute or two each on one idle core.
 """
 
 from __future__ import annotations
@@ -108,19 +108,18 @@ def navigate(how: dict[str, Any]) -> None:
     """Going to a goal, with a map and without: docs/changing.md."""
     rows: dict[str, list[str]] = {}
     for maze, goal in GOALS.items():
-        one, other = (
-            navigate_result(
-                MAZES[maze], navigate_many(MAZES[maze], goal=goal, known=known, **how), goal=goal, known=known
-            )
-            for known in (True, False)
-        )
-        one, other = one["summary"], other["summary"]
+        one, other = (led(how, maze, goal=goal, known=known) for known in (True, False))
         rows[maze] = [
             f"{one['reached']}/{one['runs']}, {one['ratio']:.3f}",
             f"{other['reached']}/{other['runs']}, {other['mean_steps']:.1f}",
             f"{other['mean_frontier_steps']:.1f}",
         ]
     change("docs/changing.md", "| maze | goal |", rows, first=2)
+
+
+def led(how: dict[str, Any], maze: str, **task: Any) -> dict[str, Any]:
+    """The summary of one sweep to a goal."""
+    return navigate_result(MAZES[maze], navigate_many(MAZES[maze], **task, **how), **task)["summary"]
 
 
 def column(found: Mapping[str, Mapping[str, Any]], name: str) -> Rows:
