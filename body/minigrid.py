@@ -14,11 +14,12 @@ from .protocol import Percept
 from .room_map import CENTRE, Pose, RoomMap, around
 from .routes import distances, route
 from .vocabulary import vocabulary
-from .whereabouts import FORWARD, LEFT, NOTHING, RIGHT, SURE, Whereabouts, moved
+from .whereabouts import FORWARD, LEFT, LOST, NOTHING, RIGHT, SURE, Whereabouts, moved
 
 UP = 3
 """The way a body faces where it wakes up, whatever that is in the world."""
 _LOOKS, _TRIES, _PATIENCE, _ASTRAY = 40, 400, 12, 40
+_LOST_IN_NOISE = 16.0  # nats: as LOST, where three tiles may have been misread
 _AGAIN = 3  # looks that it takes before it gives a way up that it sees, where its eyes are bad
 _PASSAGE = 5.0  # tiles that a passage is expected to have before any was walked
 
@@ -56,7 +57,7 @@ class MiniGridBody:
         self._given_up: set[mg.Tile] = set()
         self._far, self._walked = _PASSAGE, 1
         self.steps, self.ended, self.reward = 0, False, 0.0
-        self._confused, self._unsure = False, 0
+        self._confused, self._unsure, self._odd = False, 0, 0
 
     @property
     def pose(self) -> Pose:
@@ -217,11 +218,15 @@ class MiniGridBody:
         meant = moved(self.pose, action, self._known)
         self._where.update(action, view, self._known)
         self._unsure = 0 if self._where.certainty >= SURE else self._unsure + 1
-        if self._where.lost or self._unsure > _ASTRAY:
+        if self._where.misfit > (LOST if not self._eyes.noise else _LOST_IN_NOISE):
+            self._odd += 1
+        else:
+            self._odd = 0
+        if self._odd > (self._eyes.noise > 0.0) or self._unsure > _ASTRAY:  # one blurred look may be wrong
             self._where.set(meant)  # which way it faces may be the same still
             self._anew(observation)
             self._confused = True
-        elif self._where.certainty >= SURE:
+        elif self._where.certainty >= SURE and not self._odd:
             self._known.add(self.pose, view)
 
     def _anew(self, observation: Any) -> None:
@@ -229,7 +234,7 @@ class MiniGridBody:
         self._known.clear()
         self._given_up.clear()
         self._barred.clear()
-        self._seed, self._unsure = (CENTRE, CENTRE), 0
+        self._seed, self._unsure, self._odd = (CENTRE, CENTRE), 0, 0
         self._where.set((CENTRE, CENTRE, self.pose[2]))
         self._known.add(self.pose, self._eyes.look(observation["image"]))
         self._confused = False
