@@ -277,7 +277,9 @@ class Agent(Filed):
         if not recognition.choose(belief):
             self._revise(percept)
             return
-        state.belief = recognition.weighed(belief)
+        state.belief = recognition.weighed(belief, percept)
+        if state.belief.message is not belief.message:
+            state.window.clear()
         self._remember(percept)
         if recognition.lost:
             return
@@ -297,7 +299,8 @@ class Agent(Filed):
             places = {moved[at]: value for at, value in state.preferences.places.items() if at in moved}
             state.preferences = replace(state.preferences, places=places)
         state.revised = moved is not None or self.belief.place != recognition.place
-        state.belief = recognition.believed(percept) if state.revised else recognition.weighed(self.belief)
+        here, belief = recognition.place, self.belief
+        state.belief = recognition.believed(percept, here) if state.revised else recognition.weighed(belief, percept)
         state.window.clear()
         self._remember(percept)
 

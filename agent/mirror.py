@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, whereabouts
+from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, together, whereabouts
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 
 WALKS = 3
@@ -115,6 +115,9 @@ class Mirror:
         best = hypotheses[0][0]
         mass, elsewhere = dict[int, float](), 0.0
         for h, p in hypotheses:
+            if h.crowd is None and best.crowd is None and together(h, best):
+                mass[here] = mass.get(here, 0.0) + p
+                continue
             for number, share in whereabouts(h).items():
                 same = number == best.here and self._key(h, number) == self._key(best, number)
                 place = here if same else self._place(h, number)

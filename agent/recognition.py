@@ -21,6 +21,7 @@ from ..inference import (
     TrackerOptions,
     open_probability,
     rates_of,
+    together,
     tracker_knowing,
     ways_misread,
 )
@@ -40,6 +41,9 @@ HARDLY = 1.5
 
 DECIDED = 0.8
 """Probability from which on another hypothesis than the one that is followed changes the map."""
+
+SURER = 0.98
+"""Share of what hypotheses hold of a place from which on the filter need not be overruled."""
 
 RULED_OUT = 0.01
 """Odds beside the most probable hypothesis down to which the one that is followed may be followed on."""
@@ -173,7 +177,7 @@ class Recognition:
         if len(hypotheses) < 2:
             return graph
         weights = [exp(h.weight) for h in hypotheses]
-        places = [self.mirror.place(h) for h in hypotheses]
+        places = [self.mirror.place(self._now if together(h, self._now) else h) for h in hypotheses]
         return with_question(graph, weights, places, followed=hypotheses.index(self._now), step=step)
 
     def missed(self) -> None:
@@ -189,19 +193,24 @@ class Recognition:
         """Have the map say what the most probable hypothesis says; see `Mirror.follow`."""
         return self.mirror.follow(self._now, step=step)
 
-    def weighed(self, belief: Belief) -> Belief:
-        """The belief with the probability of the hypotheses in which the agent is elsewhere than it says."""
+    def weighed(self, belief: Belief, percept: Percept) -> Belief:
+        """The belief with the probability of the hypotheses in which the agent is elsewhere than it says.
+
+        Where they are surer than it they are believed instead: that moves fail, or go astray, the filter does not know.
+        """
         if len(self.tracker.hypotheses) == 1:
-            return belief
+            return belief if self.lost or belief.message.certainty > SURER else self.believed(percept, belief.place)
         mass, elsewhere = self.mirror.belief(self._weights(), here=belief.place)
+        if not self.lost and belief.message.certainty < SURER * mass.get(belief.place, 0.0):
+            return self.believed(percept, belief.place)
         held = belief.places
         lost = elsewhere + sum(p for place, p in mass.items() if place not in held)
         return replace(belief, doubt=min(lost, 1.0))
 
-    def believed(self, percept: Percept) -> Belief:
-        """The belief that the hypotheses amount to, over the places of the map."""
+    def believed(self, percept: Percept, here: int) -> Belief:
+        """The belief that hypotheses amount to, over the places of the map; the followed one has the agent `here`."""
         map_, none = self._map, np.zeros(0, dtype=np.int64)
-        mass, elsewhere = self.mirror.belief(self._weights(), here=self.mirror.places[self._now.here])
+        mass, elsewhere = self.mirror.belief(self._weights(), here=here)
         places = np.array(sorted(mass), dtype=np.int64)
         q = np.array([mass[place] for place in places.tolist()])
         told, q = map_.log_likelihood(places, percept), q / q.sum()
@@ -299,7 +308,7 @@ def _enclosed(h: Hypothesis) -> bool:
     queue = [h.here]
     for number in queue:
         record = h.places[number]
-        for way in range(h.scheme.count):
+        for way in h.awake:
             if open_probability(h, number, way) > 0.5:
                 to = h.neighbour(record, way)
                 if to == NOWHERE:

@@ -11,7 +11,7 @@ import numpy as np
 from ..agent import Agent, Settings, TurningAgent
 from ..baselines import ChartFrontier, CscgAgent, CscgSettings, FrontierAgent, RandomAgent
 from ..model import GROWTHS, POSES, Bearings, CogmapError, Pose, Sensor, Sight, StaticGrowth, Ways
-from ..planning import CHOICES, POLICIES, LShaped, MapGuided, Planner, Sampled
+from ..planning import BY, CHOICES, POLICIES, LShaped, MapGuided, Planner, Sampled
 from ..worlds import Chart, HasChart, Motions, World, offered
 
 CSCG = {
@@ -61,6 +61,7 @@ class Parts:
         policies: one of `POLICIES`.
         choice: one of `CHOICES`.
         pose: one of `POSES`; a lattice unless given, and none in worlds whose actions have no displacements.
+        cost: what exploring is to take little of, "steps" or "metres".
         cscg: of the clone-structured graphs.
 
     Raises:
@@ -73,12 +74,19 @@ class Parts:
     policies: str = "map_guided"
     choice: str = "outward"
     pose: str | None = None
+    cost: str = "steps"
     cscg: CscgSettings = field(default_factory=CscgSettings)
 
     def __post_init__(self) -> None:
         if self.agent not in AGENTS:
             raise CogmapError(f"no agent is called {self.agent!r}; choose one of {', '.join(AGENTS)}")
-        for name, known in (("growth", GROWTHS), ("policies", POLICIES), ("choice", CHOICES), ("pose", POSES)):
+        for name, known in (
+            ("growth", GROWTHS),
+            ("policies", POLICIES),
+            ("choice", CHOICES),
+            ("pose", POSES),
+            ("cost", BY),
+        ):
             if (value := getattr(self, name)) is not None and value not in known:
                 raise CogmapError(f"settings: {name} is {value!r}; choose one of {', '.join(known)}")
 
@@ -107,12 +115,18 @@ class Parts:
             world: gives the motions; the number of places to static growth; and the number of sights (or places, if it
                 is given positions) to a clone-structured graph.
             seed: of the agent.
+
+        Raises:
+            CogmapError: a pose that this world has not, or a baseline that needs displacements.
+            WorldError: no motions, or no chart.
         """
         motions = offered(world, World, "an agent").motions
         chart = offered(world, HasChart, f"agent {self.agent}").chart
         if self.agent == "cogmap":
             growth = StaticGrowth(len(chart.places)) if self.growth == StaticGrowth.name else GROWTHS[self.growth]()
             planner = Planner(policies=POLICIES[self.policies](), choice=CHOICES[self.choice]())
+            if planner.explorer is not None:
+                planner = replace(planner, explorer=replace(planner.explorer, by=self.cost))
             number = int(seed.generate_state(1)[0])
             own: Any = {
                 "sensors": _sensors(world),
@@ -150,9 +164,10 @@ class Parts:
         if self.agent != "cogmap":
             return self.cscg.to_dict() if self.agent in CSCG else {}
         places = len(chart.places) if chart is not None and self.growth == StaticGrowth.name else None
+        cost = {} if self.cost == "steps" else {"cost": self.cost}
         names = {"policies": self.policies, "beam": MapGuided().beam, "choice": self.choice, "growth": self.growth}
         pose = {} if self.pose is None else {"pose": self.pose}
-        values = {**self.settings.to_dict(), **names, **pose, "places": places}
+        values = {**self.settings.to_dict(), **names, **pose, **cost, "places": places}
         return {name: values[name] for name in dict.fromkeys((*_FIRST, *values))}
 
 

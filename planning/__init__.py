@@ -17,6 +17,7 @@ from .local import (
 from .plan import Plan, policy_posterior
 from .planner import Planner
 from .policies import (
+    BY,
     MAX_LOOK_AHEAD,
     POLICIES,
     Exhaustive,
@@ -49,6 +50,7 @@ from .terms import (
 )
 
 __all__ = [
+    "BY",
     "CHOICES",
     "MAX_LOOK_AHEAD",
     "POLICIES",

@@ -54,6 +54,20 @@ def test_percepts_of_every_kind_leave_the_map_right(tmp_path: Path) -> None:
     assert "features         right 1 of 1" in printed
 
 
+def test_graphs_are_explored_beside_nearest_frontier(tmp_path: Path) -> None:
+    edges = [(0, 1), (1, 2), (2, 3), (3, 0), (1, 3)]
+    nodes = [{"id": i, "position": [4.0 * (i % 3), 3.0 * (i // 2)]} for i in range(4)]
+    ways = [{"source": a, "target": b} for pair in edges for a, b in (pair, pair[::-1])]
+    (tmp_path / "small.json").write_text(json.dumps({"directed": True, "nodes": nodes, "edges": ways}))
+    asked = ("--worlds", "small", "--sights", "distinct", "2", "--noise", "odometry=0.02", "--starts", "2")
+    printed, result = measured("buildings.py", tmp_path, str(tmp_path), *asked)
+    assert [(row["sights"], row["right"]) for row in result["rows"]] == [
+        (s, True) for s in ("distinct",) * 2 + ("2",) * 2
+    ]
+    assert all(row["over_frontier"] <= 1.5 for row in result["rows"])
+    assert "small            distinct  n 2  entered 2  right 2" in printed
+
+
 def test_detours_are_walked_around_shut_doors(tmp_path: Path) -> None:
     asked = ("--worlds", "donut", "t_maze", "random", "--look-ahead", "2", "6", "--ways", "2")
     printed, result = measured("detours.py", tmp_path, *asked)

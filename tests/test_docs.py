@@ -3,6 +3,7 @@ from __future__ import annotations
 import ast
 import importlib
 import importlib.util
+import json
 import re
 import shlex
 import sys
@@ -97,6 +98,8 @@ def test_what_the_documents_import_is_public() -> None:
     pages = [ROOT / "README.md", *PAGES]
     blocks = [block for page in pages for block in re.findall(r"^```python\n(.*?)^```", page.read_text(), re.M | re.S)]
     blocks += [path.read_text("utf-8") for path in sorted((ROOT / "examples").glob("*.py"))]
+    cells = [cell for path in (ROOT / "examples").glob("*.ipynb") for cell in json.loads(path.read_text())["cells"]]
+    blocks += ["".join(cell["source"]) for cell in cells if cell["cell_type"] == "code"]
     found = [node for block in blocks for node in ast.walk(ast.parse(block)) if isinstance(node, ast.ImportFrom)]
     ours = [node for node in found if str(node.module).split(".")[0] == "cogmap"]
     assert len(ours) > 50

@@ -278,7 +278,7 @@ WORLDS = {
     "edges.yaml": ("- node: {name: a, properties: {sight: x}, edges: 3}", "edges are 3; give a list"),
     "laughs.graphml": (f"<!DOCTYPE a [<!ENTITY a0 'a'>{LAUGHS}]><graphml>&a9;</graphml>", "declares entities"),
     "surrogate.json": ('{"nodes": [{"id": 1, "sight": "\\ud800"}], "edges": []}', "half of a character"),
-    "deep.json": ("[" * 10_000, "nested too deeply"),
+    "deep.json": ("[" * 200_000, "nested too deeply"),
     "null\0name.txt": (None, "no world"),
 }  # fmt: skip
 

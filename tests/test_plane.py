@@ -8,8 +8,9 @@ import networkx as nx
 import numpy as np
 import pytest
 from cogmap.agent import Agent
-from cogmap.experiments import explore, walk
+from cogmap.experiments import Parts, explore, walk
 from cogmap.model import Bearings, CogmapError, Plane, Sight, Ways
+from cogmap.planning import Options, Planner, Policies, evaluate_plain
 from cogmap.worlds import GraphWorld, ListedWays, NoisyWorld, load_world
 from shared import shared
 
@@ -96,6 +97,33 @@ def test_exploring_is_by_options_and_each_says_what_it_is_worth() -> None:
     np.testing.assert_allclose(G.G, G["way_there"] - G["way_back"])
     assert plan.chosen == G.G.argmin()
     assert (G["way_back"] > 0.0).all()
+
+
+def test_exploring_may_go_by_metres() -> None:
+    """Options say how far it is, in mean lengths of a way, and the nearest by steps is not always the nearest."""
+    world = ListedWays(grid(4, 5, sights="distinct"))
+    sensors = [Sight("sight"), Ways(learned=True), Bearings()]
+    agent = Agent(world.motions, sensors=sensors, pose=Plane(), planner=Planner(explorer=Options(by="metres")), seed=0)
+    observation, _ = world.reset(seed=0)
+    whole = True
+    for _ in range(25):
+        observation, *_ = world.step(agent.step(observation))
+        plan = agent.plan
+        if plan.generator.name == "options":
+            there = plan.expected_free_energy["way_there"]
+            plain = evaluate_plain(plan.model, Policies(plan.policies), plan.generator.terms)
+            np.testing.assert_allclose(there, plain["way_there"])
+            whole &= bool(np.allclose(there, there.round()))
+    assert not whole
+    made = Parts(cost="metres").make(world, np.random.SeedSequence(0))
+    assert made.planner.explorer.by == "metres"
+
+
+def test_a_cost_that_is_none_is_refused() -> None:
+    with pytest.raises(CogmapError, match="cannot be measured by 'miles'"):
+        Options(by="miles")
+    with pytest.raises(CogmapError, match="cost is 'miles'"):
+        Parts(cost="miles")
 
 
 @pytest.mark.parametrize("bearings", [None, "north", [0.0], [None, "east", None], [None, np.nan, None]])

@@ -20,7 +20,7 @@ from cogmap.agent import Agent, Settings
 from cogmap.experiments import Parts, check_outputs, explore
 from cogmap.experiments.studies import study_named
 from cogmap.experiments.studies.running import Outcome, write_index
-from cogmap.inference import infer
+from cogmap.inference import TrackerOptions, infer
 from cogmap.model import CogmapError, CognitiveMap, FactorGraph, Motions, Priors, Rates, Sight, Ways, shown
 from cogmap.views import plot_factor_graph
 from cogmap.worlds import GRID as MOTIONS
@@ -221,18 +221,18 @@ def test_priors_too_small_to_count_are_refused() -> None:
     assert len(walked("3x3", 20, settings=least)[2].map.places) == 9
 
 
-def test_a_step_costs_the_same_however_many_labels_there_were() -> None:
-    agent, calls = Agent(GRID, settings=Settings(look_ahead=2, hypotheses=None), seed=0), dict[int, int]()
+@pytest.mark.parametrize(("hypotheses", "early", "late"), [(None, 98, 398), (TrackerOptions(), 38, 98)])
+def test_a_step_costs_the_same_however_many_labels_there_were(hypotheses: Any, early: int, late: int) -> None:
+    agent, calls = Agent(GRID, settings=Settings(look_ahead=2, hypotheses=hypotheses), seed=0), dict[int, int]()
 
     def count(frame: Any, event: str, argument: Any) -> None:
         calls[step] = calls.get(step, 0) + (event in ("call", "c_call"))
 
-    for step in range(400):
-        observed = step % 100 in (98, 99)
-        sys.setprofile(count if observed else None)
+    for step in range(late + 2):
+        sys.setprofile(count if step in (early, early + 1, late, late + 1) else None)
         agent.step({"sight": f"new {step}", "open": SHUT})
     sys.setprofile(None)
-    assert max(calls[398], calls[399]) <= 1.1 * min(calls[98], calls[99])
+    assert max(calls[late], calls[late + 1]) <= 1.1 * min(calls[early], calls[early + 1])
 
 
 # -- files -------------------------------------------------------------------------------------------------

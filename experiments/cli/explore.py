@@ -52,6 +52,7 @@ def explore_command(
     format: opt.Format = "text",
     pose: opt.Pose = None,
     told: opt.Told = None,
+    cost: opt.Cost = "steps",
     view: opt.View = None,
     tiles: opt.Tiles = None,
     policies: opt.Policies = None,
@@ -79,7 +80,7 @@ def explore_command(
         refused = {"--agent": agent != "cogmap", "--noise": bool(noise), "--sights": sights is not None}
         refused |= {"--tiles": tiles is not None, "--steps": steps is not None, "--growth": growth != "predicted"}
         refused |= {"--save": save is not None, "--trace": trace is not None, "--out": out is not None}
-        refused |= {"--dask": dask is not None, "--pose": pose is not None}
+        refused |= {"--dask": dask is not None, "--pose": pose is not None, "--cost": cost != "steps"}
         how: Any = {"view": view, "runs": runs, "seed": seed, "look_ahead": look_ahead, "max_steps": max_steps}
         run_registered(world, errand=False, **how, jobs=jobs, json=json, refused=refused)
         return
@@ -87,6 +88,7 @@ def explore_command(
     place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
     options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine, "pose": pose}
+    options["cost"] = cost
     every = [lab.Parts.named(agent, preset=preset, growth=name, **options) for name in names]
     sweep, chart = runs is not None or len(every) > 1, lab.chart_of(place)
     _check(agent, len(every), save, trace, out, dask=dask is not None and not sweep)

@@ -14,6 +14,7 @@ from ...baselines import TileFrontier
 from ...body import COLOURS, load_embodied
 from ...views import BLUE, GREY
 from ...worlds import Maze, hall
+from ...worlds import minigrid as mg
 from .. import Record, explore, kidnap, mean, navigate
 from ..low_level import TENTHS
 from .figures import Figure, panels, plot_bars
@@ -112,9 +113,7 @@ def _hall(size: str, seed: int) -> Maze:
 
 def _flat(size: str, seed: int, *, eager: bool) -> int | None:
     """Steps until nearest-frontier search over tiles has seen nine tenths; None if it never has."""
-    from ...worlds.minigrid import rooms_env
-
-    env, agent = rooms_env(_hall(size, seed)), TileFrontier(eager=eager)
+    env, agent = mg.rooms_env(_hall(size, seed)), TileFrontier(eager=eager)
     (seen, _), ended = env.reset(seed=seed), False
     while TENTHS not in env.tally.shares and not ended:
         seen, _, _, ended, _ = env.step(agent.step(seen))

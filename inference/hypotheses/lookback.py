@@ -48,6 +48,8 @@ def passed_over(
     for first in range(len(past) - 1, -1, -1):
         step = past[first]
         parent = step.parent.as_of(step.marks)
+        if parent is not None:
+            parent.awake = past[-1].parent.awake
         if parent is None or step.time < history.start:
             return
         parent.chances = Chances(parent.counts, step.labels, size=parent.size)

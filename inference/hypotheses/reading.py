@@ -52,6 +52,20 @@ def whereabouts(h: Hypothesis) -> dict[int, float]:
     return {number: exp(weight) for number, weight in h.crowd.items()}
 
 
+def together(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether two hypotheses have the agent in the same place, wherever their charts have that.
+
+    A place is the same where both have the agent in it since the same step, or have had it there last at the same step.
+    """
+    return one.here == other.here or _before(one) == _before(other)
+
+
+def _before(h: Hypothesis) -> int | None:
+    """When the agent was last where it is now, before now."""
+    recent = h.places[h.here].recent
+    return recent[-2] if len(recent) > 1 else None
+
+
 def ways_misread(h: Hypothesis) -> float:
     """How many ways were misread so far, as a hypothesis expects."""
     return max(h.counts.yes[WAY_MISREAD], 0.0)

@@ -16,12 +16,12 @@ from .chances import Chances
 from .evidence import log_predictive
 from .extending import begin, extend
 from .folding import pairs, union
-from .hypothesis import Hypothesis, settle_alike
+from .hypothesis import Hypothesis, awake_ways, settle_alike
 from .logs import log_sum
 from .lookback import BACK, Past, passed_over
 from .options import Change, Checkpoint, TrackerOptions
 from .pruning import merged, normalised
-from .reading import whereabouts
+from .reading import together, whereabouts
 from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
@@ -66,6 +66,7 @@ class Tracker:
         self.change = Change("revised")
         self.history = History()
         self.labels: tuple[int, ...] = ()
+        self.awake = awake_ways(scheme)
         self._settled = -1
         self._doubts: Sequence[int] = ()
         self._doubted = 0
@@ -105,7 +106,9 @@ class Tracker:
         if len(self._tried) > MANY:
             self._tried = {}
         self.history.add(sensed, self.time)
-        self.labels = tuple(n + 1 for n in labels)
+        self.labels, self.awake = tuple(n + 1 for n in labels), awake_ways(self.scheme, self.awake, sensed)
+        for h in self.hypotheses:
+            h.awake = self.awake
         if self.hypotheses:
             self.hypotheses = self._advanced(sensed)
         else:
@@ -118,13 +121,12 @@ class Tracker:
     def certainty(self) -> float:
         """Probability of the hypotheses that agree with the best one on where the agent is."""
         best = self.best
-        before = _before(best)
         total = 0.0
         for h in self.hypotheses:
             if h.crowd is not None or best.crowd is not None:
                 total += exp(h.weight) * whereabouts(h).get(best.here, 0.0)
             else:
-                total += exp(h.weight) * (h.here == best.here or _before(h) == before)
+                total += exp(h.weight) * together(h, best)
         return min(total, 1.0)
 
     # -- going back, and files ----------------------------------------------------------------------------
@@ -133,7 +135,7 @@ class Tracker:
         """What `rollback` needs to undo the next step; it costs as much as there are hypotheses."""
         self._overwritten = []  # what the step before has overwritten is not to be put back
         kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
-        kept += self._clear, self._quiet, self._past
+        kept += self._clear, self._quiet, self._past, self.awake
         return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
 
     def rollback(self, checkpoint: Checkpoint) -> None:
@@ -149,7 +151,7 @@ class Tracker:
             )
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
         self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
-        self._clear, self._quiet, self._past = rest
+        self._clear, self._quiet, self._past, self.awake = rest
         for key, before in reversed(self._overwritten if tried is self._tried else ()):
             if before is None:
                 tried.pop(key, None)
@@ -158,14 +160,14 @@ class Tracker:
         self._tried, self._overwritten = tried, []
         self.history.cut(self.time)
         for h, weight in zip(self.hypotheses, checkpoint.weights, strict=True):
-            h.weight, h.chances = weight, Chances(h.counts, self.labels, size=h.size)
+            h.weight, h.awake, h.chances = weight, self.awake, Chances(h.counts, self.labels, size=h.size)
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
         """All that `restored` needs to walk on: a header for JSON, and arrays of numbers."""
         numbers = self.time, self._doubted, self._clear, self._quiet
         parts = Parts(
             self.hypotheses, self.history, self._tried, self._past, self.change, self._doubts, self.labels,
-            self.evidence, numbers,
+            self.evidence, numbers, self.awake,
         )  # fmt: skip
         return stored(self.scheme, parts)
 
@@ -183,14 +185,16 @@ class Tracker:
         tracker.evidence, tracker.change, tracker._tried = parts.evidence, parts.change, parts.tried
         tracker._past, tracker._doubts = parts.past, parts.doubts
         tracker.time, tracker._doubted, tracker._clear, tracker._quiet = parts.numbers
+        tracker.awake = parts.awake
         for h in tracker.hypotheses:
-            h.chances = Chances(h.counts, tracker.labels, size=h.size)
+            h.awake, h.chances = tracker.awake, Chances(h.counts, tracker.labels, size=h.size)
         return tracker
 
     # -- one step ------------------------------------------------------------------------------------------
 
     def _first(self, sensed: Sensed) -> Hypothesis:
         first = Hypothesis(self.scheme)
+        first.awake = self.awake
         first.chances = Chances(first.counts, self.labels)
         self.evidence = log_predictive(first, sensed, None, None, NOWHERE)
         self.change = Change("revised")
@@ -336,9 +340,3 @@ class Tracker:
                 before = self._tried.get(key)
                 self._overwritten.append((key, before))
                 self._tried[key] = (before or NEVER).again(h, self.time, contradicted=united)
-
-
-def _before(h: Hypothesis) -> int | None:
-    """When the agent was last where it is now, before now."""
-    recent = h.places[h.here].recent
-    return recent[-2] if len(recent) > 1 else None

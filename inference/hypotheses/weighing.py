@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from math import exp, lgamma, log
+from math import lgamma, log
 from typing import NamedTuple
 
 from .chances import Chances
+from .evidence import strength
 from .hypothesis import Hypothesis
 from .rates import ELSEWHERE, MEETING, NEW, RATE_PRIORS, SQUARE, UNDONE, crp_evidence
 from .records import NOWHERE
@@ -112,7 +113,8 @@ def _links(united: Union, *, apart: bool) -> Links:
     meeting = 0
     for number in united.members() if apart else united.classes:
         place = view(number)
-        for index, way in enumerate(place.ways):
+        for index in h.awake:
+            way = place.ways[index]
             if way.to != NOWHERE:
                 keys[number, index] = find(way.to)
         sources = {(find(source), index) for source, index in place.into}
@@ -166,9 +168,10 @@ def _doors(united: Union, *, apart: bool) -> float:
     total = 0.0
     for number in united.members() if apart else united.classes:
         place = view(number)
-        for index, way in enumerate(place.ways):
+        for index in h.awake:
             if (number, index) in done:
                 continue
+            way = place.ways[index]
             other = NOWHERE
             if inverse is not None:
                 other = (
@@ -195,7 +198,7 @@ def door_evidence(chances: Chances, mine: float, its: float, *, open_: float) ->
     ρ [π l m + (1 - π) / (l m)] + (1 - ρ) [π l + (1 - π) / l] [π m + (1 - π) / m],  l = exp(net · unit / 2)
     """
     p, half = open_, 0.5 * chances.unit
-    one, other = exp(mine * half), exp(its * half)
+    one, other = strength(mine * half), strength(its * half)
     same = p * one * other + (1.0 - p) / (one * other)
     apart = (p * one + (1.0 - p) / one) * (p * other + (1.0 - p) / other)
     return log(chances.undone * same + (1.0 - chances.undone) * apart)

@@ -2,6 +2,7 @@
 
 from .base import MAX_LOOK_AHEAD, MAX_POLICIES, Policies, PolicyGenerator
 from .exhaustive import Exhaustive
+from .frontier import BY
 from .l_shaped import LShaped
 from .map_guided import MapGuided
 from .options import Options
@@ -13,6 +14,7 @@ POLICIES: dict[str, type[PolicyGenerator]] = {
 """The generators by name, for command lines and files."""
 
 __all__ = [
+    "BY",
     "MAX_LOOK_AHEAD",
     "MAX_POLICIES",
     "POLICIES",

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import heapq
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
 
 from ..local import Frontier, Surroundings
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+STEPS, METRES = "steps", "metres"
+BY = (STEPS, METRES)
+"""What ways are measured in: one a step, or how far apart places lie, over the mean length of a way."""
 
 MOST = 64
 """Options that are weighed, the nearest, and equals of the last of them."""
@@ -21,17 +28,22 @@ DOUBT = 4.0
 SAMPLE = 512
 """Other places never entered to which the way back is measured, at most, spread evenly over all."""
 
+LARGEST = 1_000
+"""Places of the largest map in which ways back are measured along its ways, where places have no positions."""
 
-def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int = 0) -> Frontier | None:
+
+def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int = 0, by: str = STEPS) -> Frontier | None:
     """The best options from where the agent is; None where there are none, or one within `beyond` steps.
 
-    Breadth first along likely ways of places that were entered; what was never entered ends an option. Costs what it
-    touches: places within (1 + weight) / (1 - weight) times the way to the nearest option.
+    The nearest first along likely ways of places that were entered; what was never entered ends an option. Costs what
+    it touches: places within (1 + weight) / (1 - weight) times the way to the nearest option. Ways are measured `by`
+    one of `BY`; by steps where places have no positions.
     """
     map_ = around.map
     if map_.visited.all() and not map_.pose.guessed(map_.transitions):
         return None
-    search = _Search(around, (1.0 + weight) / (1.0 - weight))
+    pose, reach = map_.pose, (1.0 + weight) / (1.0 - weight)
+    search = _by_length(around, reach) if by == METRES and pose.measures else _by_steps(around, reach)
     ends = search.ends
     if not ends:
         return _doubted(around, search, most)
@@ -46,7 +58,8 @@ def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int =
     kept = kept if int(ties.sum()) <= most else [ends[i] for i in best[ties].tolist()]
     paths = tuple(search.path(end) for end in kept)
     on = {place for end in kept for place in search.walk(end)}
-    return Frontier(paths, tuple(sorted(on)), {end: float(back[ends.index(end)]) for end in kept})
+    spared = {end: float(back[ends.index(end)]) for end in kept}
+    return Frontier(paths, tuple(sorted(on)), spared, search.costs(on))
 
 
 def _doubted(around: Surroundings, search: _Search, most: int) -> Frontier | None:
@@ -60,59 +73,74 @@ def _doubted(around: Surroundings, search: _Search, most: int) -> Frontier | Non
         return None
     kept = [(place, action) for steps, place, action in sorted(met) if steps < min(met)[0] + 1e-9][:most]
     on = {place for at, _ in kept for place in search.walk(at)}
-    return Frontier(tuple((*search.path(place), action) for place, action in kept), tuple(sorted(on)), {})
+    paths = tuple((*search.path(place), action) for place, action in kept)
+    return Frontier(paths, tuple(sorted(on)), {}, search.costs(on))
 
 
-@dataclass(slots=True, init=False)
+@dataclass(slots=True)
 class _Search:
-    """Breadth first from the place where the agent most probably is.
+    """From the place where the agent most probably is.
 
     Attributes:
-        depth: steps to each place that was met.
+        depth: how far it is to each place that was met.
         ends: places never entered, the nearest first.
+        by: what ways are measured in.
+        before: the place and the action that lead to each.
+        prices: `[K]` what the first step costs, by its action; None where that is one.
     """
 
-    depth: dict[int, int]
+    depth: dict[int, float]
     ends: list[int]
-    _before: dict[int, tuple[int, int]]  # place and action
-    _prices: Floats | None
-
-    def __init__(self, around: Surroundings, reach: float) -> None:
-        map_, cache, self._prices = around.map, around.cache, around.prices
-        visited, start = map_.visited, int(around.starts[0])
-        self.depth, self.ends, self._before = {start: 0}, [], {}
-        level, steps, most = [start], 0, np.inf
-        while level and steps < most and len(self.ends) < MOST:
-            steps += 1
-            rows = (cache.likely(np.array(level)) if steps > 1 else around.sensed()).tolist()
-            ahead: list[int] = []
-            for place, row in zip(level, rows, strict=True):
-                for action, after in _cheapest_first(row, self._prices if steps == 1 else None):
-                    if after >= 0 and after not in self.depth:
-                        self.depth[after], self._before[after] = steps, (place, action)
-                        (ahead if visited[after] else self.ends).append(after)
-            if self.ends and most == np.inf:
-                most = reach * steps + 1.0
-            level = ahead
+    by: str
+    before: dict[int, tuple[int, int]]
+    prices: Floats | None = None
 
     def extra(self, end: int) -> float:
         """What the first step of the way there costs more than a usual one."""
-        return 0.0 if self._prices is None else float(self._prices[self.path(end)[0]]) - 1.0
+        return 0.0 if self.prices is None else float(self.prices[self.path(end)[0]]) - 1.0
 
     def path(self, end: int) -> tuple[int, ...]:
         """The actions that lead there."""
         actions: list[int] = []
-        while end in self._before:
-            end, action = self._before[end]
+        while end in self.before:
+            end, action = self.before[end]
             actions.append(action)
         return tuple(reversed(actions))
 
     def walk(self, end: int) -> list[int]:
         """The places on the way there."""
         places = [end]
-        while places[-1] in self._before:
-            places.append(self._before[places[-1]][0])
+        while places[-1] in self.before:
+            places.append(self.before[places[-1]][0])
         return places
+
+    def costs(self, on: set[int]) -> dict[tuple[int, int], float]:
+        """What each step between these places costs, by place and action, where that is not one."""
+        if self.by == STEPS:
+            return {}
+        steps = ((place, self.before[place]) for place in on if place in self.before)
+        return {way: self.depth[place] - self.depth[way[0]] for place, way in steps}
+
+
+def _by_steps(around: Surroundings, reach: float) -> _Search:
+    """Breadth first, until `reach` times as far as the nearest place never entered, and a step."""
+    map_, cache = around.map, around.cache
+    visited, start = map_.visited, int(around.starts[0])
+    search = _Search({start: 0}, [], STEPS, {}, around.prices)
+    level, steps, most = [start], 0, np.inf
+    while level and steps < most and len(search.ends) < MOST:
+        steps += 1
+        rows = (cache.likely(np.array(level)) if steps > 1 else around.sensed()).tolist()
+        ahead: list[int] = []
+        for place, row in zip(level, rows, strict=True):
+            for action, after in _cheapest_first(row, search.prices if steps == 1 else None):
+                if after >= 0 and after not in search.depth:
+                    search.depth[after], search.before[after] = steps, (place, action)
+                    (ahead if visited[after] else search.ends).append(after)
+        if search.ends and most == np.inf:
+            most = reach * steps + 1.0
+        level = ahead
+    return search
 
 
 def _cheapest_first(row: list[int], prices: Floats | None) -> list[tuple[int, int]]:
@@ -120,8 +148,34 @@ def _cheapest_first(row: list[int], prices: Floats | None) -> list[tuple[int, in
     return list(enumerate(row)) if prices is None else [(a, row[a]) for a in np.argsort(prices, kind="stable").tolist()]
 
 
+def _by_length(around: Surroundings, reach: float) -> _Search:
+    """The same by how far it is, in mean lengths of a way."""
+    map_, start = around.map, int(around.starts[0])
+    pose, visited = map_.pose, map_.visited
+    search = _Search({start: 0.0}, [], METRES, {})
+    queue, done, most = [(0.0, start)], set[int](), np.inf
+    while queue and queue[0][0] <= most and len(search.ends) < MOST:
+        far, place = heapq.heappop(queue)
+        if place in done:
+            continue
+        done.add(place)
+        if not visited[place]:
+            search.ends.append(place)
+            most = min(most, reach * far + 1.0)
+            continue
+        row = (around.cache.likely(np.array([place])) if place != start else around.sensed())[0]
+        ways = np.flatnonzero(row >= 0)
+        for action, after, length in zip(
+            ways.tolist(), row[ways].tolist(), pose.lengths_to(place, row[ways]).tolist(), strict=True
+        ):
+            if far + length < search.depth.get(after, np.inf):
+                search.depth[after], search.before[after] = far + length, (place, action)
+                heapq.heappush(queue, (far + length, after))
+    return search
+
+
 def _back(around: Surroundings, ends: Ints, search: _Search) -> Floats:
-    """`[n]` how far it is from each end to what else was never entered, on average, in steps."""
+    """`[n]` how far it is from each end to what else was never entered, on average, as ways are measured."""
     places, where = around.cache.where.never_entered()
     mine = around.cache.where.of(ends)
     if not len(places) or np.isnan(mine).any():
@@ -131,10 +185,22 @@ def _back(around: Surroundings, ends: Ints, search: _Search) -> Floats:
         places, where = places[some], where[some]
     apart = np.sqrt(np.square(mine[:, None] - where[None]).sum(axis=2))
     others = (ends[:, None] != places[None]).sum(axis=1)
-    longest = max(around.map.pose.longest, 1e-12)
-    return np.asarray(apart.sum(axis=1) / np.maximum(others, 1) / longest)
+    pose = around.map.pose
+    unit = max(pose.longest if search.by == STEPS else pose.length, 1e-12)
+    return np.asarray(apart.sum(axis=1) / np.maximum(others, 1) / unit)
 
 
 def _back_on_map(around: Surroundings, ends: Ints, search: _Search) -> Floats:
-    """The same without positions: none."""
-    return np.zeros(len(ends))
+    """The same without positions: along the ways of the map; none in a large one."""
+    map_ = around.map
+    size, entered = len(map_.places), map_.visited_places
+    if len(entered) > LARGEST:
+        return np.zeros(len(ends))
+    ahead = around.cache.likely(entered)
+    row, action = np.nonzero(ahead >= 0)
+    graph = csr_array((np.ones(len(row)), (entered[row], ahead[row, action])), shape=(size, size))
+    graph.data[:] = 1.0  # of two ways between two places
+    far = dijkstra(graph, directed=False, unweighted=True, indices=ends)
+    others = np.flatnonzero(~map_.visited)
+    far = np.where(np.isfinite(far[:, others]), far[:, others], 0.0)
+    return np.asarray(far.sum(axis=1) / np.maximum((far > 0.0).sum(axis=1), 1))

@@ -10,7 +10,7 @@ from ..choices import TIE, Outward
 from ..local import Frontier, LocalModel, Surroundings
 from ..terms import Term, WayBack, WayThere
 from .base import Policies, PolicyGenerator, padded
-from .frontier import frontier_of
+from .frontier import BY, STEPS, frontier_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,9 +33,11 @@ class Options(PolicyGenerator):
         cost: of a step, in nats.
         kept: of so many of the best options the plan keeps record.
         near: whether options also decide where something new is within the look-ahead.
+        by: what d and the way back are measured in: "steps", or "metres", over the mean length of a way, where places
+            have positions in metres; l is the mean length then.
 
     Raises:
-        CogmapError: a number is out of range.
+        CogmapError: a number is out of range, or `by` is neither.
     """
 
     name: ClassVar[str] = "options"
@@ -43,6 +45,7 @@ class Options(PolicyGenerator):
     cost: float = 1.0
     kept: int = 8
     near: bool = True
+    by: str = STEPS
 
     def __post_init__(self) -> None:
         if not is_number(self.weight, 0.0, 0.95):
@@ -51,6 +54,9 @@ class Options(PolicyGenerator):
             raise CogmapError(f"options: cost is {self.cost!r}; give a number of nats from 0.001 to 1000")
         if not (isinstance(self.kept, int) and 1 <= self.kept <= 1_000):  # pyright: ignore[reportUnnecessaryIsInstance]
             raise CogmapError(f"options: kept is {self.kept!r}; give a whole number from 1 to 1000")
+
+        if self.by not in BY:
+            raise CogmapError(f"options: ways cannot be measured by {self.by!r}; use one of {', '.join(BY)}")
 
     @property
     def terms(self) -> tuple[Term, ...]:
@@ -67,7 +73,7 @@ class Options(PolicyGenerator):
         if around.preferences.sights or around.preferences.places or around.structure is not None:
             return None
         least = 0 if self.near else around.look_ahead
-        return frontier_of(around, weight=self.weight, most=self.kept, beyond=least)
+        return frontier_of(around, weight=self.weight, most=self.kept, beyond=least, by=self.by)
 
     def make(self, model: LocalModel) -> Policies:
         self.check(model.motions, model.look_ahead)

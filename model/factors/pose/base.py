@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from typing import Any, Protocol
 
+import numpy as np
+
 from ...dirichlet import SparseDirichlet
 from ...domain import Domain
 from ...motions import Motions, Position
@@ -41,10 +43,12 @@ class Pose(ModelFactor):
         positions: their labels.
         table: counts of P(p | s), a row a place.
         periods: that positions repeat with; none unless a pose knows better.
+        measures: whether positions are in metres, or in another unit of which steps may be any number.
         settles: whether it follows from the pose alone which place is which, so that no hypotheses are weighed.
     """
 
     settles = False
+    measures = False
 
     name = "pose"
     positions: Domain
@@ -60,6 +64,15 @@ class Pose(ModelFactor):
     def longest(self) -> float:
         """The longest step so far, in the unit of positions."""
         return 1.0
+
+    @property
+    def length(self) -> float:
+        """The mean length of a step, in the unit of positions."""
+        return 1.0
+
+    def lengths_to(self, place: int, others: Ints) -> Floats:
+        """`[n]` how far it is from a place to each of others next to it, in mean lengths of a step."""
+        return np.ones(len(others))
 
     @property
     def origin(self) -> Position | None:

@@ -38,6 +38,7 @@ class MetricPose(NoPose):
     """
 
     settles = True
+    measures = True
 
     def attach(self, context: Context) -> None:
         """Make it part of a model."""
@@ -100,6 +101,13 @@ class MetricPose(NoPose):
         ahead = (source >= 0) & (bearing >= 0.0) & (found[:, 0] < UNKNOWN)
         found[ahead] += self.length * direction(bearing[ahead])
         return found
+
+    def lengths_to(self, place: int, others: Ints) -> Floats:
+        """`[n]` straight on, in mean lengths of a way; one where nobody knows."""
+        entered = self.context.visits.visited.values[others]
+        where = np.where(entered[:, None], self.where.values[others], self.imagined(others))
+        apart = np.linalg.norm(where - self.where.values[place], axis=1) / self.length
+        return np.where(where[:, 0] < UNKNOWN, apart, 1.0)
 
     def steps_in(self, place: int) -> tuple[int, ...]:
         """The last steps at which the agent was there."""

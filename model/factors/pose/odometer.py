@@ -22,8 +22,14 @@ USUAL, COUNTS = 0.002, 4.0
 ERRS = 0.006
 """Rate from which on measurements are not taken for exact."""
 
+LEAST = 0.01
+"""Mean lengths of a way that a move counts for at least, where it is asked how far its measurement may err."""
+
 GUESSED = 0.5
 """Standard deviation of a length that was not measured, over the mean length."""
+
+SHORT = 0.1
+"""Mean lengths of a way that one counts for at least among the logarithms: some places have one position."""
 
 SPREAD, FEW = 0.5, 4
 """Standard deviation of the logarithm of lengths before any was measured, and how many measurements it counts for."""
@@ -85,6 +91,11 @@ class Odometer:
         spread = np.sqrt((max(squares - many * mean * mean, 0.0) + FEW * SPREAD**2) / (many + FEW))
         return (np.log(np.maximum(length, 1e-9)) - mean) / spread
 
+    def most(self, along: float) -> float:
+        """Standard deviation of where one is after all ways that were measured, and a move of such a one."""
+        many, _, _, _, longest = self.noted.values[:5].tolist()
+        return float(np.hypot(np.sqrt(many) * self.rate * longest, along)) if many else np.inf
+
     def moved(self, displacement: Sequence[float] | None, bearing: float) -> Move | None:
         """A move along a way with this bearing, below 0 where it has none; None where nothing is known of it."""
         if displacement is None and bearing < 0.0:
@@ -105,10 +116,11 @@ class Odometer:
             many: `[E]` how often; 0 where a length is only guessed.
             bearing: `[E]` degrees, below 0 where there is none.
         """
-        length = np.maximum(np.linalg.norm(moved, axis=1), 1e-9)
+        length = np.maximum(np.linalg.norm(moved, axis=1), LEAST * self.length)
         along = length * np.where(many > 0.0, self.rate / np.sqrt(np.maximum(many, 1.0)), GUESSED)
         u, square = direction(bearing), across(bearing)
         told = (bearing >= 0.0) & ((moved * u).sum(axis=1) > 0.0)  # who walked backwards walked another way
+        told &= self.errs | (many < 1.0)
         off, blur = (moved * square).sum(axis=1), np.square(COMPASS * length)
         share = np.where(told, np.square(along) / (np.square(along) + blur), 0.0)
         sideways = np.where(told, np.sqrt(share * blur), along)
@@ -134,7 +146,7 @@ class Odometer:
     def measure(self, length: float) -> None:
         """A way that was not walked before is so long."""
         many, logs, squares, total, longest = self.noted.values[:5].tolist()
-        log = float(np.log(max(length, 1e-9)))
+        log = float(np.log(max(length, SHORT * (total + length) / (many + 1.0))))
         new = many + 1.0, logs + log, squares + log * log, total + length, max(longest, length)
         for at, value in enumerate(new):
             self.noted.set(at, value)

@@ -18,10 +18,10 @@ from .relaxing import AXES, around, drift, relaxed
 NEAR = 0.1
 """A place is the one that was expected if it is so near, in mean lengths of a way, where moves are measured exactly."""
 
-STILL = 0.05
+STILL = 1e-3
 """A move that is shorter than this, in mean lengths of a way, was none."""
 
-CLOSED = 1e-6
+CLOSED = 1e-3
 """Mean lengths of a way by which a loop may be open and positions stay as they are."""
 
 MOST = 400
@@ -51,7 +51,7 @@ class Plane(MetricPose):
         ways, entered = model.transitions, model.visits.visited.values
         bearing = float(self.bearings.values[place, action])
         move = self.odometer.moved(percept.displacement, bearing)
-        if move is None or np.linalg.norm(move.moved) <= STILL * self.length:
+        if move is None or self._stayed(model, place, percept, move.moved):
             return
         self.odometer.learn_direction(percept.displacement, bearing)
         target = ways.beyond(place, action)
@@ -86,8 +86,8 @@ class Plane(MetricPose):
         """The agent is in a place, as far as it is certain, and sees its ways."""
         fill(self.been, place, [*((-1,) * RECENT), *self.steps_in(place), step][-RECENT:])
         if self.where.values[place, 0] >= UNKNOWN:
-            at = self.position(place)
-            fill(self.where, place, [0.0] * AXES if at is None else at)
+            first = len(model.visits.order) <= 1
+            fill(self.where, place, [0.0] * AXES if first else self.position(place) or [UNKNOWN] * AXES)
         seen = seen_bearings(model, percept)
         if seen is not None and not (self.bearings.values[place] >= 0.0).any():
             fill(self.bearings, place, seen.tolist())
@@ -131,6 +131,13 @@ class Plane(MetricPose):
         many, mean = self.walks.values[at, 3], self.walks.values[at, 4:].copy()
         self.odometer.learn(move - mean, float(np.square(mean).sum()) * (1.0 + 1.0 / many))
         fill(self.walks, at, [*self.walks.values[at, :3], many + 1.0, *(mean + (move - mean) / (many + 1.0))])
+
+    def _stayed(self, model: Growing, place: int, percept: Percept, moved: Floats) -> bool:
+        """Whether a move led nowhere; places that look different may have one position."""
+        if np.linalg.norm(moved) > STILL * self.length:
+            return False
+        seen = seen_bearings(model, percept)
+        return seen is None or np.array_equal(seen, self.bearings.values[place])
 
     def _apart(self, place: int, at: Floats) -> float:
         """How far a place lies from a position, in mean lengths of a way."""

@@ -27,6 +27,9 @@ MISREAD = 0.05
 ONE_WAY = 3.0
 """Nats against a place that has no way back."""
 
+FAR = 12.0
+"""Standard deviations beyond which no place is looked for."""
+
 FEW = 8
 """Places that are looked at where nothing but their position tells them apart."""
 
@@ -47,10 +50,21 @@ def recognised(pose: MetricPose, model: Growing, percept: Percept, left: int, at
     places = _candidates(pose, model, percept, left, at)
     if not len(places):
         return None
-    odds = _lies_there(pose, left, places, at, move) + _looks_so(model, places, percept)
-    odds -= _leads_back(pose, model, places, left, percept.action or 0)
-    best = int(odds.argmax())
-    return int(places[best]) if odds[best] > 0.0 else None
+    odds = _lies_there(pose, left, places, at, move)
+    likely = odds > -np.inf
+    places, odds = places[likely], odds[likely]
+    odds += _looks_so(model, places, percept)
+    best: tuple[float, int | None] = 0.0, None
+    for i in np.argsort(-odds, kind="stable").tolist():
+        if odds[i] <= best[0]:
+            break
+        place = int(places[i])
+        best = max(best, (odds[i] - _leads_back(pose, model, place, left, percept.action or 0), place), key=_first)
+    return best[1]
+
+
+def _first(pair: tuple[float, int | None]) -> float:
+    return pair[0]
 
 
 def _candidates(pose: MetricPose, model: Growing, percept: Percept, left: int, at: Floats) -> Ints:
@@ -70,16 +84,19 @@ def _candidates(pose: MetricPose, model: Growing, percept: Percept, left: int, a
 def _lies_there(pose: MetricPose, left: int, places: Ints, at: Floats, move: Move) -> Floats:
     """`[n]` log of the density of each at this position, over that of places in general."""
     off = (pose.where.values[places] - at) / pose.length
-    axes = 3 if off[:, 2].any() else 2
+    axes, apart = 3 if off[:, 2].any() else 2, np.linalg.norm(off, axis=1)
+    most = np.hypot(BLUR, pose.odometer.most(move.along) / pose.length)
+    if apart.min() > FAR * most:  # however the agent came here
+        return np.full(len(places), -np.inf)
     spread = np.full(len(places), BLUR)
-    if np.square(off).sum(axis=1).min() > np.square(BLUR):
+    if apart.min() > BLUR:
         along = drift(pose.walked(), left, places, len(pose.where)) / pose.length
         spread = np.sqrt(spread**2 + np.square(along) + np.square(move.along / pose.length))
     known = np.isfinite(spread)
     spread = np.where(known, spread, 1e6)
     far = np.square(off / spread[:, None]).sum(axis=1)
     log = -axes * np.log(spread * np.sqrt(2.0 * np.pi)) - (TAILS + axes) / 2.0 * np.log1p(far / TAILS)
-    return np.where(known, log, -np.inf)
+    return np.where(known & (apart <= FAR * spread), log, -np.inf)
 
 
 def _looks_so(model: Growing, places: Ints, percept: Percept) -> Floats:
@@ -104,18 +121,14 @@ def _of_new(model: Growing, name: str, reading: Any) -> float:
     return float(np.log(again * shown / max(entered, 1) if shown else 1.0 - again))
 
 
-def _leads_back(pose: MetricPose, model: Growing, places: Ints, left: int, action: int) -> Floats:
-    """`[n]` nats against places whose way back is missing; infinite where it was walked, and led elsewhere."""
+def _leads_back(pose: MetricPose, model: Growing, place: int, left: int, action: int) -> float:
+    """Nats against a place whose way back is missing; infinite where it was walked, and led elsewhere."""
     bearing = float(pose.bearings.values[left, action])
     if bearing < 0.0:
-        return np.zeros(len(places))
-    against = np.full(len(places), ONE_WAY)
-    ways = model.transitions
-    for i, place in enumerate(places.tolist()):
-        theirs = pose.bearings.values[place]
-        apart = np.where(theirs < 0.0, np.inf, np.abs((theirs - bearing) % 360.0 - 180.0))
-        back = int(apart.argmin())
-        if apart[back] <= ROUGH:
-            elsewhere = ways.walked.values[place, back] and ways.beyond(place, back) != left
-            against[i] = np.inf if elsewhere else 0.0
-    return against
+        return 0.0
+    theirs, ways = pose.bearings.values[place], model.transitions
+    apart = np.where(theirs < 0.0, np.inf, np.abs((theirs - bearing) % 360.0 - 180.0))
+    back = int(apart.argmin())
+    if apart[back] > ROUGH:
+        return ONE_WAY
+    return np.inf if ways.walked.values[place, back] and ways.beyond(place, back) != left else 0.0
