@@ -113,7 +113,7 @@ def _lead(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         h.counts.yes[RELINKED] += way.to != to
         h.counts.no[RELINKED] += (way.to == to) / (way.walks * way.walks)
     if way.to not in (NOWHERE, to):
-        unlink(h, here, index, way)
+        _relink(h, here, index, to, branch)
         way = way._replace(walks=0, to=NOWHERE)
     elif way.to == NOWHERE:
         _count_link(h, place, index, to, branch)
@@ -127,6 +127,22 @@ def _lead(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         h.put(here, shared(h, here, h.places[here]))
     else:
         h.put(here, shared(h, here, with_way(h.places[here], index, walked)))
+
+
+def _relink(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
+    """A way leads elsewhere than was thought: the link there was is gone, or leads here only."""
+    place, inverse = h.places[here], h.scheme.inverse
+    way = place.ways[index]
+    if inverse is not None and (back := h.places[way.to].ways[inverse[index]]).walks and back.to == here:
+        h.counts.no[UNDONE] += not way.walks
+        h.links += 1  # that it leads off the chart says no more than that it does not lead back
+    elif h.scheme.displacements is not None:
+        off = float(h.beside(place, index) != way.to)
+        h.links -= 1
+        h.counts.yes[ELSEWHERE] = max(h.counts.yes[ELSEWHERE] - off, 0.0)
+        h.counts.no[ELSEWHERE] = max(h.counts.no[ELSEWHERE] - 1.0 + off, 0.0)
+        _count_link(h, place, index, to, branch)
+    unlink(h, here, index, way)
 
 
 @contextmanager

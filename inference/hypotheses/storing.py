@@ -191,8 +191,8 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
         sensed.check(scheme)
         history.add(sensed, time)
     tried: dict[Attempt, Tried] = {}
-    for one, other, period, apart, time, wait, size, links, against in source.many(lambda: source.numbers(9)):
-        tried[one, other, bool(period), apart] = Tried(time, wait, size, links, bool(against))
+    for one, other, period, apart, *rest in source.many(lambda: source.numbers(9)):
+        tried[one, other, bool(period), apart] = Tried(*rest)
     doubts = source.row()
     source.end()
     kind, places = header["change"]

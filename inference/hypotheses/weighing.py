@@ -21,20 +21,22 @@ FACTOR = 0.6
 class Links(NamedTuple):
     """Ways between places: how many, how many of them off the chart, that do not lead back, that meet.
 
-    And, without poses, how many squares close, and do not.
+    Those off the chart of which a way back says no more are `astray`. Without poses, how many squares close, and do
+    not.
     """
 
     ways: int
     off: int
     crooked: int
     meeting: int
+    astray: int = 0
     square: float = 0.0
     open_square: float = 0.0
 
     def less(self, other: Links) -> Links:
         """The difference."""
         a, b = self, other
-        counts = a.ways - b.ways, a.off - b.off, a.crooked - b.crooked, a.meeting - b.meeting
+        counts = a.ways - b.ways, a.off - b.off, a.crooked - b.crooked, a.meeting - b.meeting, a.astray - b.astray
         return Links(*counts, a.square - b.square, a.open_square - b.open_square)
 
 
@@ -58,7 +60,7 @@ def _structure_gain(united: Union, more: Links) -> float:
     fewer = len(set(united.gone()))
     if h.scheme.displacements is not None:
         off = more.off + (united.charts.periods is not None)
-        gain = rate_gain(h, ELSEWHERE, off, more.ways - more.off)
+        gain = rate_gain(h, ELSEWHERE, off - more.astray, more.ways - more.off)
         return gain - off * log(h.size - fewer + 1.0)
     squares = max(h.counts.yes[SQUARE], 0.0)
     closed = max(h.links - h.size + 1 - squares, 0.0)
@@ -121,7 +123,7 @@ def _links(united: Union, *, apart: bool) -> Links:
         for source, index in sources:
             keys[source, index] = number
         meeting += len(sources) - len({index for _, index in sources})
-    count = off = crooked = 0
+    count = off = crooked = astray = 0
     for (number, index), to in keys.items():
         back = NOWHERE if inverse is None else view(to).ways[inverse[index]].to
         mutual = back != NOWHERE and find(back) == number
@@ -129,9 +131,11 @@ def _links(united: Union, *, apart: bool) -> Links:
             continue
         count += 1
         crooked += back != NOWHERE and not mutual
-        off += _off(united, number, index, to, apart=apart)
+        if _off(united, number, index, to, apart=apart):
+            off += 1
+            astray += _denied(united, number, index, to, apart=apart)
     squares = _squares(united, apart=apart) if h.scheme.displacements is None else (0.0, 0.0)
-    return Links(count, off, crooked, meeting if inverse is None else 0, *squares)
+    return Links(count, off, crooked, meeting if inverse is None else 0, astray, *squares)
 
 
 def _squares(united: Union, *, apart: bool) -> tuple[float, float]:
@@ -157,6 +161,15 @@ def _off(united: Union, number: int, index: int, to: int, *, apart: bool) -> boo
         place, there = h.places[number], h.places[to]
         return h.beyond(place, index) != (there.frame, there.position)
     return united.charts.ahead(united.find(number), index) != united.key(to)
+
+
+def _denied(united: Union, number: int, index: int, to: int, *, apart: bool) -> bool:
+    """Whether a link is known not to lead back to where a walk came from: that it is off the chart says no more."""
+    h, find = united.h, _itself if apart else united.find
+    if h.scheme.inverse is None:
+        return False
+    into = h.places[number].into if apart else united.view(number).into
+    return any(by == h.scheme.inverse[index] and find(source) != to for source, by in into)
 
 
 def _doors(united: Union, *, apart: bool) -> float:
