@@ -301,3 +301,17 @@ def test_networks(tmp_path: Path) -> None:
     given = ["--networks", str(folder), "--runs", "1", "--memory", "10", "--no-peer", "--json", str(file)]
     subprocess.run([sys.executable, str(BENCHMARKS / "inference.py"), *given], check=True, capture_output=True)
     assert "needs" in json.loads(file.read_text())["rows"][0]["refused"]
+
+
+def test_tables_of_the_documents_are_written_row_by_row() -> None:
+    sys.path.insert(0, str(BENCHMARKS))
+    try:
+        written = importlib.import_module("tables").written
+    finally:
+        sys.path.remove(str(BENCHMARKS))
+    page = "# A\n\n| maze | done |\n| --- | ---: |\n| `3x3` | 1/2 |\n| `4x4` | 2/2 |\n\n| `3x3` | stays |\n"
+    changed = written(page, "| maze | done |", {"3x3": ["20/20"]})
+    assert changed == page.replace("1/2", "20/20")
+    for heading, maze in (("| no | such |", "3x3"), ("| maze | done |", "donut")):
+        with pytest.raises(ValueError, match="no"):
+            written(page, heading, {maze: ["x"]})
