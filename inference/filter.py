@@ -113,6 +113,7 @@ def advance(model: GenerativeModel, message: Message, percept: Percept, *, suppo
     places, pair = distinct(message.places)
     stays = model.pose.stays(percept.action, opened=percept.opened)
     ahead = model.transitions.predict(places, percept.action, percept, stays=stays)
+    ahead = model.pose.leading(ahead, percept)
     walked = _walk(model, message, percept, ahead.of(pair))
     displacement = _probability(model, percept)
     share = float(walked.joint.sum()) * np.exp(walked.scale)

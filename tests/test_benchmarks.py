@@ -83,6 +83,23 @@ def test_graphs_are_explored_beside_nearest_frontier(tmp_path: Path) -> None:
     assert "small            distinct  n 2  entered 2  right 2" in printed
 
 
+def test_a_robot_that_drives_in_rounds_knows_its_cells_again_though_its_odometry_drifts(tmp_path: Path) -> None:
+    """Three rounds of 12 m by 8 m; the heading drifts by half a degree a metre, 60 degrees in all."""
+    side = [(1.0, 0.0, 0.0)] * 11 + [(1.0, 0.0, np.pi / 2)], [(1.0, 0.0, 0.0)] * 7 + [(1.0, 0.0, np.pi / 2)]
+    moves = np.array((side[0] + side[1] + side[0] + side[1]) * 3)
+    heading = np.append(0.0, np.cumsum(moves[:, 2]))
+    steps = np.stack([np.cos(heading[:-1]), np.sin(heading[:-1])], axis=1)
+    truth = np.column_stack([np.append(np.zeros((1, 2)), np.cumsum(steps, axis=0), axis=0), heading])
+    moves[:, 2] += np.deg2rad(0.5)
+    log = {"odometry": moves.tolist(), "truth": truth.tolist()}
+    (tmp_path / "log.json").write_text(json.dumps(log))
+    printed, result = measured("odometry.py", tmp_path, str(tmp_path / "log.json"))
+    row = result["rows"][0]
+    assert row["right"] == row["cells"] >= 20
+    assert row["off"] < 1.5
+    assert "split 0" in printed
+
+
 def test_detours_are_walked_around_shut_doors(tmp_path: Path) -> None:
     asked = ("--worlds", "donut", "t_maze", "random", "--look-ahead", "2", "6", "--ways", "2")
     printed, result = measured("detours.py", tmp_path, *asked)

@@ -204,6 +204,10 @@ class Transition(ModelFactor):
         if neighbour not in (place, *keys):
             self.table.rename(row, keys[0] if keys else ELSEWHERE, neighbour)
 
+    def may_lead(self, place: int, action: int, neighbour: int) -> None:
+        """An action may lead to this place too, besides where it led before: that counts as once at least."""
+        self.raise_to(neighbour, place, action, 1.0)
+
     def learn(self, previous: int, action: int, next_: int, weight: float, *, back: bool = True) -> None:
         """A walked transition, weighted by its pairwise posterior; one that went nowhere was blocked (eq. B_up).
 
