@@ -169,7 +169,8 @@ class Recognition:
         misread = ways_misread(now) > HARDLY
         if len(hypotheses) < 2 and not misread:
             return None
-        return OpenQuestion(hypotheses, self.sensing.ways, doors_of=now if misread else None)
+        tries = all(look is None for look in self._looked or ()) and _tried(now)
+        return OpenQuestion(hypotheses, self.sensing.ways, doors_of=now if misread else None, tries=tries)
 
     def asked(self, graph: FactorGraph, *, step: int) -> FactorGraph:
         """The graph of the window with the question which hypothesis is right, if that is open."""
@@ -300,6 +301,14 @@ class Recognition:
     def _weights(self) -> list[tuple[Hypothesis, float]]:
         others = [h for h in self.tracker.hypotheses if h is not self.followed]
         return [(h, exp(h.weight)) for h in (self._now, *others)]
+
+
+def _tried(h: Hypothesis) -> bool:
+    """Whether every way was looked at or tried, or is known from elsewhere."""
+    records = (h.places[number] for number in h.places)
+    return all(
+        known.net or h.neighbour(record, way) != NOWHERE for record in records for way, known in enumerate(record.ways)
+    )
 
 
 def _enclosed(h: Hypothesis) -> bool:

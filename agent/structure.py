@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from heapq import nlargest
-from math import exp
+from math import exp, sqrt
 
 from ..inference import NOWHERE, Hypothesis, open_probability
 
@@ -31,6 +31,8 @@ class OpenQuestion:
         hypotheses: all of them.
         ways: of actions, as hypotheses number them.
         doors_of: one of them of which it is asked besides, door by door, whether it was read right.
+        tries: all that is left to do is to walk into walls, or what may be walls: what is hardly probable is worth a
+            bump then, and hypotheses count by the roots of their probabilities.
 
     Attributes:
         weights: their probabilities.
@@ -38,15 +40,21 @@ class OpenQuestion:
     """
 
     def __init__(
-        self, hypotheses: Sequence[Hypothesis], ways: Mapping[int, int], *, doors_of: Hypothesis | None = None
+        self,
+        hypotheses: Sequence[Hypothesis],
+        ways: Mapping[int, int],
+        *,
+        doors_of: Hypothesis | None = None,
+        tries: bool = False,
     ) -> None:
         kept = [(exp(h.weight), h, Door()) for h in hypotheses if exp(h.weight) >= LEAST]
         if doors_of is not None:
             doubtful, weight = nlargest(DOORS, _doubtful(doors_of), key=lambda found: found[0]), exp(doors_of.weight)
             kept += [(weight * p / (1.0 - p), doors_of, door) for p, door in doubtful]
+        self._tries = tries
         self._kept, self._ways = [(h, misread) for _, h, misread in kept], ways
         self._ahead, self._expected = dict[tuple[int, int, int], int | None](), dict[tuple[int, int], Hashable]()
-        self.weights: Sequence[float] = [weight for weight, _, _ in kept]
+        self.weights: Sequence[float] = [sqrt(weight) if tries else weight for weight, _, _ in kept]
         self.here: Sequence[Hashable] = [h.here for _, h, _ in kept]
 
     def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
+from cogmap.agent.structure import OpenQuestion
 from cogmap.experiments import Trail, Verdict
 from cogmap.experiments.running import Moment
 from cogmap.inference import TrackerOptions, infer
+from cogmap.inference.hypotheses import Sensed, Tracker, WayScheme
 from cogmap.model import CogmapError, NoPose, Sight
 from cogmap.worlds import MazeEnv, NoisyWorld, UnseenWays, comb, load_world, place_of, ring, torus
 
@@ -258,3 +260,12 @@ def test_what_is_no_place_and_no_walk() -> None:
             agent.steps_in(place)  # type: ignore[arg-type]
     with pytest.raises(CogmapError, match="the walk is a NoneType"):
         next(agent.follow(None))  # type: ignore[arg-type]
+
+
+def test_what_is_hardly_probable_counts_for_more_where_trying_is_all_that_is_left() -> None:
+    tracker = Tracker(WayScheme(2, (1, 0)))
+    for action in (None, 0, 0):
+        tracker.step(Sensed((0,), (None, None), action), [1])
+    asked, tried = (OpenQuestion(tracker.hypotheses, {0: 0, 1: 1}, tries=tries) for tries in (False, True))
+    assert len(asked.weights) > 1
+    assert tried.weights == pytest.approx([weight**0.5 for weight in asked.weights])
