@@ -12,12 +12,9 @@ from ..transition import Transition
 from .base import Growing
 from .joining import Joining
 from .metric import RECENT, UNKNOWN, MetricPose, fill, seen_bearings
-from .recognising import recognised
+from .recognising import NEAR, recognised
 from .relaxing import AXES
 from .roaming import Roaming
-
-NEAR = 0.1
-"""A place is the one that was expected if it is so near, in mean lengths of a way, where moves are measured exactly."""
 
 LEAST = 1e-6
 """P(ways as sensed) of a new place, at least, where it is taken out again."""
