@@ -49,10 +49,21 @@ def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) ->
         united.unite(one, other, period=period)
     except ContradictionError:
         return True
+    if _leads_nowhere(united):
+        return True
     gain, links = scored(united)
     if h.weight + gain < floor:
         return False
     return _built(united, h.weight + gain, links)
+
+
+def _leads_nowhere(united: Union) -> bool:
+    """Whether a way that was never looked at would lead back to where it began: that it is shut says the same."""
+    return any(
+        way.to != NOWHERE and not (way.open or way.blocked) and united.find(way.to) == number
+        for number, place in united.classes.items()
+        for way in place.ways
+    )
 
 
 def _built(united: Union, weight: float, more: Links) -> Hypothesis:
