@@ -310,7 +310,7 @@ def _enclosed(h: Hypothesis) -> bool:
     queue = [h.here]
     for number in queue:
         record = h.places[number]
-        for way in range(h.scheme.count):
+        for way in h.awake:
             if open_probability(h, number, way) > 0.5:
                 to = h.neighbour(record, way)
                 if to == NOWHERE:

@@ -58,7 +58,7 @@ class OpenQuestion:
 
     def _leads(self, h: int, number: int, action: int) -> int | None:
         (found, _), way = self._kept[h], self._ways.get(action)
-        if way is None:
+        if way is None or way not in found.awake:
             return number
         record = found.places[number]
         to = found.neighbour(record, way)
@@ -82,9 +82,8 @@ class OpenQuestion:
     def _shows(self, h: int, number: int) -> Hashable:
         found, _ = self._kept[h]
         record = found.places[number]
-        looked = [
-            None if not (way.open or way.blocked) else self._open(h, number, k) for k, way in enumerate(record.ways)
-        ]
+        read = {k: bool(record.ways[k].open or record.ways[k].blocked) for k in found.awake}
+        looked = [self._open(h, number, k) if looked_at else None for k, looked_at in read.items()]
         return tuple(record.label(sensor) for sensor in range(found.scheme.sensors)), tuple(looked)
 
 
@@ -93,7 +92,8 @@ def _doubtful(h: Hypothesis) -> Iterator[tuple[float, Door]]:
     asked = set[tuple[int, int]]()
     for number in _around(h):
         record = h.places[number]
-        for way, known in enumerate(record.ways):
+        for way in h.awake:
+            known = record.ways[way]
             if (number, way) in asked or not (known.open or known.blocked):
                 continue
             door = _sides(h, number, way)
@@ -108,7 +108,7 @@ def _around(h: Hypothesis) -> Sequence[int]:
     found = [h.here]
     for number in found:
         record = h.places[number]
-        beyond = (h.neighbour(record, way) for way in range(h.scheme.count))
+        beyond = (h.neighbour(record, way) for way in h.awake)
         found += dict.fromkeys(to for to in beyond if to != NOWHERE and to not in found)
         if len(found) >= NEAREST:
             break

@@ -113,7 +113,11 @@ class TurningAgent(Agent):
 
     @classmethod
     def from_state(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], **parts: Any) -> Self:
-        """The agent that `state` took apart; see `load`."""
+        """The agent that `state` took apart; see `load`.
+
+        Raises:
+            CogmapError: its frame is turned as none can be, or as for `Agent`.
+        """
         told: Mapping[str, Any] = header.get("turning", {"turn": 0, "done": header["state"]["action"], "sought": None})
         agent = super().from_state({k: v for k, v in header.items() if k != "turning"}, arrays, **parts)
         done = agent.map.motions.stay if told["done"] is None else told["done"]

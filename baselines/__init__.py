@@ -8,5 +8,15 @@ from .cue_optimum import CueOptimum
 from .frontier import FrontierAgent
 from .habit import HabitAgent
 from .random_walk import RandomAgent
+from .tile_frontier import TileFrontier
 
-__all__ = ["ChartFrontier", "CscgAgent", "CscgSettings", "CueOptimum", "FrontierAgent", "HabitAgent", "RandomAgent"]
+__all__ = [
+    "ChartFrontier",
+    "CscgAgent",
+    "CscgSettings",
+    "CueOptimum",
+    "FrontierAgent",
+    "HabitAgent",
+    "RandomAgent",
+    "TileFrontier",
+]

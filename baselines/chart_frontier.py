@@ -20,6 +20,9 @@ class ChartFrontier:
         chart: of the world that it is in.
         by: what is nearest, by `"steps"` or `"length"`.
         seed: of its random choices.
+
+    Raises:
+        WorldError: an unknown `by`.
     """
 
     positions = True

@@ -84,7 +84,11 @@ class Source:
         return _choices(self, agent)
 
     def choices_of(self, individual: int, *, agent: bool = False) -> Choices:
-        """The same of one individual."""
+        """The same of one individual.
+
+        Raises:
+            CogmapError: the agent is asked for, and none has followed this individual.
+        """
         route, prospects = self.routes[individual], None
         if agent:
             followings = self.followed(individual)

@@ -54,6 +54,7 @@ def measured(kind: str, asked: argparse.Namespace) -> Row:
                 result = f"failed: {took:.1f} s"
             if result not in ("fine", "refused"):
                 failures[result] += 1
+                asked.keep.mkdir(parents=True, exist_ok=True)
                 (asked.keep / f"{kind.replace(' ', '-')}-{asked.seed}-{number}{path.suffix}").write_bytes(
                     path.read_bytes()
                 )
@@ -94,7 +95,6 @@ def main(given: Sequence[str] | None = None) -> int:
     asked = parser.parse_args(given)
     if unknown := [kind for kind in asked.kinds if kind not in KINDS]:
         parser.error(f"there is no kind {unknown[0]!r}; kinds are {', '.join(map(repr, KINDS))}")
-    asked.keep.mkdir(parents=True, exist_ok=True)
     signal.signal(signal.SIGALRM, _late)
     rows: list[Row] = []
     for kind in asked.kinds or KINDS:

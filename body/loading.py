@@ -59,7 +59,7 @@ def load_embodied(
     return embodied(maze, **how, least=least, most=most)
 
 
-def _maze(name: str, format: str, sights: int | str | None, seed: int) -> Maze:
+def _maze(name: str, format: Any, sights: int | str | None, seed: int) -> Maze:
     size = _HALL.fullmatch(name)
     if size is not None and name not in MAZES:
         rows, columns = map(int, size.groups())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any, Protocol
 
 import numpy as np
@@ -14,11 +14,13 @@ from .protocol import Percept
 from .room_map import CENTRE, Pose, RoomMap, around
 from .routes import distances, route
 from .vocabulary import vocabulary
-from .whereabouts import FORWARD, LEFT, NOTHING, RIGHT, SURE, Whereabouts, moved
+from .whereabouts import FORWARD, LEFT, LOST, NOTHING, RIGHT, SURE, Whereabouts, moved
 
 UP = 3
 """The way a body faces where it wakes up, whatever that is in the world."""
 _LOOKS, _TRIES, _PATIENCE, _ASTRAY = 40, 400, 12, 40
+_LOST_IN_NOISE = 16.0  # nats: as LOST, where three tiles may have been misread
+_AGAIN = 3  # looks that it takes before it gives a way up that it sees, where its eyes are bad
 _PASSAGE = 5.0  # tiles that a passage is expected to have before any was walked
 
 
@@ -55,7 +57,7 @@ class MiniGridBody:
         self._given_up: set[mg.Tile] = set()
         self._far, self._walked = _PASSAGE, 1
         self.steps, self.ended, self.reward = 0, False, 0.0
-        self._confused, self._unsure = False, 0
+        self._confused, self._unsure, self._odd = False, 0, 0
 
     @property
     def pose(self) -> Pose:
@@ -109,9 +111,10 @@ class MiniGridBody:
     def settle(self, floor: int) -> Percept:
         """Stay: look at what was not looked at, or stand on the tile of floor `floor`, if this room has one."""
         begin = self.steps
+        self._barred.clear()  # what could not be passed may have been misread
         aims = {tile for tile in self._outlook().room if self._known.floor(tile) == floor}
         while aims and self.pose[:2] not in aims and not (self.ended or self._confused) and self.steps < begin + _TRIES:
-            plan = route(self.pose, self._known, aims, within=self._outlook().room)
+            plan = route(self.pose, self._known, aims, within=self._floor(self._outlook().room))
             if not plan:
                 break
             self._act(plan[0])
@@ -187,12 +190,13 @@ class MiniGridBody:
                 meant = moved(self.pose, plan[0], self._known)
                 self._act(plan.pop(0))
                 continue
-            steps = distances(self.pose, self._known, now.room)
+            floor = self._floor(now.room)
+            steps = distances(self.pose, self._known, floor)
             spot = viewpoint(steps, targets)
             if spot is None or spot[1] == 0:  # they are in view, and yet not seen
                 self._given_up |= targets if spot is None else self._in_view(targets)
                 continue
-            plan = route(self.pose, self._known, [spot[0]], within=now.room) or []
+            plan = route(self.pose, self._known, [spot[0]], within=floor) or []
             plan, before = plan or [NOTHING], targets
             meant = moved(self.pose, plan[0], self._known)
             self._act(plan.pop(0))
@@ -214,11 +218,15 @@ class MiniGridBody:
         meant = moved(self.pose, action, self._known)
         self._where.update(action, view, self._known)
         self._unsure = 0 if self._where.certainty >= SURE else self._unsure + 1
-        if self._where.lost or self._unsure > _ASTRAY:
+        if self._where.misfit > (LOST if not self._eyes.noise else _LOST_IN_NOISE):
+            self._odd += 1
+        else:
+            self._odd = 0
+        if self._odd > (self._eyes.noise > 0.0) or self._unsure > _ASTRAY:  # one blurred look may be wrong
             self._where.set(meant)  # which way it faces may be the same still
             self._anew(observation)
             self._confused = True
-        elif self._where.certainty >= SURE:
+        elif self._where.certainty >= SURE and not self._odd:
             self._known.add(self.pose, view)
 
     def _anew(self, observation: Any) -> None:
@@ -226,7 +234,7 @@ class MiniGridBody:
         self._known.clear()
         self._given_up.clear()
         self._barred.clear()
-        self._seed, self._unsure = (CENTRE, CENTRE), 0
+        self._seed, self._unsure, self._odd = (CENTRE, CENTRE), 0, 0
         self._where.set((CENTRE, CENTRE, self.pose[2]))
         self._known.add(self.pose, self._eyes.look(observation["image"]))
         self._confused = False
@@ -236,7 +244,7 @@ class MiniGridBody:
         now = self._outlook()
         room, exits = now.room, self._exits(now, way)
         left: set[mg.Tile] = set()  # what was tried in vain
-        waited = 0
+        waited = again = 0
         while self.steps < limit and not self.ended:
             if self._confused or self._called:
                 return "unsure"
@@ -247,9 +255,12 @@ class MiniGridBody:
                 exits = self._exits(self._outlook(), way) - left
             beyond = self._beyond(exits, room)
             goal = self._next(beyond, room)
-            plan = None if goal is None else route(self.pose, self._known, [goal], within=room | beyond)
+            plan = None if goal is None else route(self.pose, self._known, [goal], within=self._floor(room) | beyond)
             if plan:
                 self._act(plan[0])
+            elif plan is None and again < _AGAIN and exits and self._eyes.noise > 0.0:
+                again += 1  # tiles may have been misread
+                self._act(NOTHING)
             elif waited < _PATIENCE and (plan is not None or self._where.certainty < SURE):
                 waited += 1
                 self._act(self._into_the_unknown())
@@ -260,6 +271,11 @@ class MiniGridBody:
                 self._barred |= exits
                 return "blocked"
         return "unsure"
+
+    def _floor(self, room: Collection[mg.Tile]) -> set[mg.Tile]:
+        """A room, and the passage in which it stands, if that is where it is: there is a way back."""
+        here = self.pose[:2]
+        return set(room) if here in room else {*room, *self._beyond({here}, set(room))}
 
     def _make_way(self, beyond: set[mg.Tile], room: frozenset[mg.Tile]) -> bool:
         """Do something about what stands in a passage; whether anything was done."""
@@ -272,7 +288,7 @@ class MiniGridBody:
         turns = min(((h - heading) % 4 for h in unknown), default=1, key=(0, 1, 3, 2).index)
         return (FORWARD, RIGHT, RIGHT, LEFT)[turns]
 
-    def _beyond(self, exits: set[mg.Tile], room: frozenset[mg.Tile]) -> set[mg.Tile]:
+    def _beyond(self, exits: set[mg.Tile], room: Collection[mg.Tile]) -> set[mg.Tile]:
         """Tiles that can be reached through the exits, as far as the next floor."""
         found, queue = set(exits), list(exits)
         while queue:

@@ -77,7 +77,11 @@ class RegisteredWorld(gym.Env[Observation, Any]):
         return self.body.steps
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Wake up where the environment puts it."""
+        """Wake up where the environment puts it.
+
+        Raises:
+            WorldError: the mission is not understood.
+        """
         super().reset(seed=seed)
         with redirect_stdout(StringIO()):  # BabyAI tells of what it tried in vain
             seen, _ = self.env.reset(seed=seed, options=options)

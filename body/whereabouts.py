@@ -13,7 +13,8 @@ LEFT, RIGHT, FORWARD, PICKUP, DROP, TOGGLE, NOTHING = range(7)
 """MiniGrid's actions."""
 
 _KEEP, _FEW = 1e-4, 64
-_LOST = 10.0  # nats by which the best pose must be worse than one of which nothing is known
+LOST = 10.0
+"""Nats by which the best pose must be worse than one of which nothing is known: nothing that was expected is seen."""
 SURE = 0.7
 """Belief in one pose from which on the map learns."""
 
@@ -24,7 +25,7 @@ class Whereabouts:
     Attributes:
         pose: the most probable.
         certainty: how probable it is.
-        lost: whether nothing that was expected fits the last view.
+        misfit: nats by which the last view fits the best pose worse than one of which nothing is known.
     """
 
     def __init__(self, pose: Pose) -> None:
@@ -34,7 +35,7 @@ class Whereabouts:
     def set(self, pose: Pose) -> None:
         """Be there for sure."""
         self._poses, self._weights = np.array([pose], dtype=np.int64), np.ones(1)
-        self.pose, self.certainty, self.lost = pose, 1.0, False
+        self.pose, self.certainty, self.misfit = pose, 1.0, 0.0
 
     @property
     def slip(self) -> float:
@@ -49,7 +50,7 @@ class Whereabouts:
             known.unlearn((x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1]))
         log_p = np.log(prior) + known.log_likelihood(poses, view)
         best = float(log_p.max())
-        self.lost = best < known.novelty(view) - _LOST
+        self.misfit = known.novelty(view) - best
         weights = np.exp(log_p - best)
         weights /= weights.sum()
         right = float(weights[meant].sum())

@@ -79,7 +79,11 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
         return self._observation(), self._info()
 
     def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Go through a way; who stays looks at what was not looked at yet."""
+        """Go through a way; who stays looks at what was not looked at yet.
+
+        Raises:
+            WorldError: no such action.
+        """
         if action not in range(len(GRID.names)):
             raise WorldError(f"no action {action!r}; use 0 to 4 ({', '.join(GRID.names)})")
         name, before = GRID.names[int(action)], self.body.reward

@@ -47,6 +47,7 @@ class ExploreRun(Record):
         frontier_mean, frontier_metres: what nearest-frontier search takes from there, by steps and by metres, mean over
             draws of its ties.
         tour_steps: of the best offline tour found.
+        cost: what the moves have cost in all, where percepts say so.
     """
 
     seed: int
@@ -70,6 +71,7 @@ class ExploreRun(Record):
     frontier_mean: float | None = field(default=None, metadata=OPTIONAL)
     frontier_metres: float | None = field(default=None, metadata=OPTIONAL)
     tour_steps: int | None = field(default=None, metadata=OPTIONAL)
+    cost: float | None = field(default=None, metadata=OPTIONAL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +119,7 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
     worth, low = _worth(session, known.trail), Meter.of(session.world).explored()
     beside = measured(chart_of(world), session.start, done.truth, known.visit_all)
     return Walk(
-        ExploreRun(seed, session.start, *figures, left_out, *worth, *low, *beside),
+        ExploreRun(seed, session.start, *figures, left_out, *worth, *low, *beside, _cost(session.agent)),
         done.truth,
         session.agent,
         session.truth,
@@ -130,6 +132,11 @@ def _worth(session: Session, trail: Trail) -> tuple[Any, ...]:
         return None, None, None, None
     worth = trail.verdict(session.agent, chart_of(session.world))
     return worth.places, worth.map_right, round(worth.known, 6), round(trail.wrong / len(trail.rooms), 6)
+
+
+def _cost(agent: Any) -> float | None:
+    """What its moves have cost; None where nobody said."""
+    return round(agent.cost, 6) if isinstance(agent, Agent) and agent.cost else None
 
 
 def explore(world: World, seed: int = 0, **options: Unpack[Options]) -> ExploreRun:
@@ -168,7 +175,7 @@ def summarise(runs: Sequence[ExploreRun], *, max_steps: int) -> dict[str, Any]:
         summary["map_right"] = sum(run.map_right is True for run in runs)
         for name in ("places", "known", "certain_but_wrong"):
             summary[f"mean_{name}"] = mean(getattr(run, name) for run in runs)
-    for name in ("metres", "frontier_mean", "frontier_metres", "tour_steps"):
+    for name in ("metres", "frontier_mean", "frontier_metres", "tour_steps", "cost"):
         if any(getattr(run, name) is not None for run in runs):
             summary[f"mean_{name}"] = mean(getattr(run, name) for run in runs)
     return summary | low_level(runs, "low_level_steps", "low_level_oracle", "low_level_steps_to_see", "tiles_seen")

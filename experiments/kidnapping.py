@@ -71,7 +71,12 @@ def kidnap(world: World, seed: int = 0, **options: Unpack[Options]) -> KidnapRun
 
 
 def check_kidnap(world: World) -> None:
-    """Refuse a world in which nobody can be moved, or that has one place only."""
+    """Refuse a world in which nobody can be moved, or that has one place only.
+
+    Raises:
+        CogmapError: one place only.
+        WorldError: nobody can be moved there.
+    """
     chart = chart_of(world)
     if chart is not world:
         offered(world, CanDisplace, "kidnap")

@@ -31,6 +31,9 @@ def check_outputs(
         paths: the outputs, all different.
         inputs: what is read, none of which may be written.
         picture: which of them is a picture, with a suffix of `PICTURES`.
+
+    Raises:
+        CogmapError: one of them is read, is named twice, is no file, or has a suffix of no picture.
     """
     read, seen = [Path(path) for path in inputs], set[Path]()
     for path in paths:

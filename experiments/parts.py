@@ -115,6 +115,10 @@ class Parts:
             world: gives the motions; the number of places to static growth; and the number of sights (or places, if it
                 is given positions) to a clone-structured graph.
             seed: of the agent.
+
+        Raises:
+            CogmapError: a pose that this world has not, or a baseline that needs displacements.
+            WorldError: no motions, or no chart.
         """
         motions = offered(world, World, "an agent").motions
         chart = offered(world, HasChart, f"agent {self.agent}").chart

@@ -186,7 +186,11 @@ def default_steps(world: World) -> int:
 
 
 def draw_start(experiment: str, world: World, seed: int) -> tuple[Place, np.random.SeedSequence, np.random.Generator]:
-    """What a seed of 0 or more settles: where to start, the stream of the agent, and draws of what happens later."""
+    """What a seed of 0 or more settles: where to start, the stream of the agent, and draws of what happens later.
+
+    Raises:
+        CogmapError: a negative seed.
+    """
     if seed < 0:
         raise CogmapError(f"{experiment}: seed is {seed}; use 0 or more")
     for_start, for_agent, later = np.random.SeedSequence(seed).spawn(3)

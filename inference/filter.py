@@ -103,12 +103,17 @@ def begin(model: GenerativeModel, place: int, percept: Percept) -> Belief:
 
 
 def advance(model: GenerativeModel, message: Message, percept: Percept, *, support: float = 1e-3) -> Belief:
-    """The belief after one more action and what is sensed then; places below `support` leave it."""
+    """The belief after one more action and what is sensed then; places below `support` leave it.
+
+    Raises:
+        CogmapError: the percept has no action.
+    """
     if percept.action is None:
         raise CogmapError("filter: the percept has no action; use begin() for the first one")
     places, pair = distinct(message.places)
     stays = model.pose.stays(percept.action, opened=percept.opened)
     ahead = model.transitions.predict(places, percept.action, percept, stays=stays)
+    ahead = model.pose.leading(ahead, percept)
     walked = _walk(model, message, percept, ahead.of(pair))
     displacement = _probability(model, percept)
     share = float(walked.joint.sum()) * np.exp(walked.scale)

@@ -66,6 +66,9 @@ class Posterior:
         """P(names | evidence), one axis a name, in the order given; for any set of variables.
 
         Those within one cluster, and the `pairs` of the query, are at hand; others cost an elimination.
+
+        Raises:
+            CogmapError: no variable, one twice, one that is not in the graph, or too many entries together.
         """
         if not names:
             raise CogmapError("joint: name at least one variable")
@@ -116,6 +119,9 @@ class Posterior:
         Args:
             count: number of draws.
             rng: a generator, or the seed of one.
+
+        Raises:
+            CogmapError: a number of draws below 0.
         """
         if count < 0:
             raise CogmapError(f"sample: cannot draw {count} times; give 0 or more")
@@ -139,6 +145,9 @@ class Posterior:
 
         They are counts on top of the prior of the table. To learn from data use `fit`, which repeats this until it
         settles; adding them again and again counts the same data again and again.
+
+        Raises:
+            CogmapError: no factor is tied to the table.
         """
         tied = [factor for factor in self.graph.factors if factor.table is table]
         if not tied:

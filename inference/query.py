@@ -133,7 +133,11 @@ def marginal_map(
 def log_product(
     graph: FactorGraph, labels: Mapping[str, Hashable] | Mapping[Variable, Hashable], known: Given | None = None
 ) -> float:
-    """log Π_f f(x_f) at a full assignment of labels, soft evidence included; -inf where a factor is zero."""
+    """log Π_f f(x_f) at a full assignment of labels, soft evidence included; -inf where a factor is zero.
+
+    Raises:
+        CogmapError: a variable has no label, or one that its domain has not.
+    """
     known = known or Given({}, {}, {}, {number: np.array(values) for number, values in _soft(graph)})
     labels = {graph.variable_named(name).name: label for name, label in labels.items()}
     if missing := [variable.name for variable in graph.variables if variable.name not in labels]:

@@ -26,6 +26,9 @@ class Stream:
         t: the slice that is next.
         memory: bytes that a step may take.
 
+    Raises:
+        CogmapError: a variable of the template has a name that ends with an apostrophe.
+
     Example: `stream = Stream(template); stream.step({"o": "red"}).marginal("s")`, again and again.
     """
 

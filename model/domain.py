@@ -34,7 +34,11 @@ class Domain:
         return f"{self.name}{{{', '.join(map(repr, self._labels))}}}"
 
     def find(self, label: Hashable) -> int | None:
-        """The number of `label`, or None where it was never met."""
+        """The number of `label`, or None where it was never met.
+
+        Raises:
+            CogmapError: the label is not hashable.
+        """
         try:
             return self._index.get(label)
         except TypeError as error:

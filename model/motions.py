@@ -116,7 +116,11 @@ class Motions:
 
     @classmethod
     def of(cls, spec: MotionSpec | Mapping[str, Sequence[int]]) -> Motions:
-        """Motions from `world.motions`, or from a mapping such as `{"left": (-1,), "right": (1,), "stay": (0,)}`."""
+        """Motions from `world.motions`, or from a mapping such as `{"left": (-1,), "right": (1,), "stay": (0,)}`.
+
+        Raises:
+            CogmapError: displacements that are no vectors of whole numbers, all of one length; or neither.
+        """
         if isinstance(spec, Motions):
             return spec
         try:

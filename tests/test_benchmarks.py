@@ -45,6 +45,21 @@ def test_long_walks_say_what_has_grown(tmp_path: Path) -> None:
     assert plain["ratio"] > 0.0
 
 
+def test_damage_and_interruptions_leave_what_is_sound(tmp_path: Path) -> None:
+    printed, result = measured("damage.py", tmp_path, "maze", "--trials", "6", "--keep", str(tmp_path))
+    (row,) = result["rows"]
+    assert (row["trials"], row["failures"], sum(row["found"].values())) == (6, {}, 6)
+    assert "maze" in printed
+    _, result = measured("interruptions.py", tmp_path, "paper", "--trials", "2")
+    assert [(row["form"], row["torn"]) for row in result["rows"]] == [("paper", 0)]
+
+
+def test_long_lists_of_actions_take_the_same_steps(tmp_path: Path) -> None:
+    _, result = measured("actions.py", tmp_path, "4x4_alias", "--actions", "0", "12", "--seeds", "1")
+    assert [[row["right"] for row in found["rows"]] for found in result["found"]] == [[True], [True]]
+    assert len({row["steps"] for found in result["found"] for row in found["rows"]}) == 1
+
+
 def test_percepts_of_every_kind_leave_the_map_right(tmp_path: Path) -> None:
     rows = ("features", "two", "hand")
     printed, result = measured("percepts.py", tmp_path, *rows, "--seeds", "0")
@@ -66,6 +81,23 @@ def test_graphs_are_explored_beside_nearest_frontier(tmp_path: Path) -> None:
     ]
     assert all(row["over_frontier"] <= 1.5 for row in result["rows"])
     assert "small            distinct  n 2  entered 2  right 2" in printed
+
+
+def test_a_robot_that_drives_in_rounds_knows_its_cells_again_though_its_odometry_drifts(tmp_path: Path) -> None:
+    """Three rounds of 12 m by 8 m; the heading drifts by half a degree a metre, 60 degrees in all."""
+    side = [(1.0, 0.0, 0.0)] * 11 + [(1.0, 0.0, np.pi / 2)], [(1.0, 0.0, 0.0)] * 7 + [(1.0, 0.0, np.pi / 2)]
+    moves = np.array((side[0] + side[1] + side[0] + side[1]) * 3)
+    heading = np.append(0.0, np.cumsum(moves[:, 2]))
+    steps = np.stack([np.cos(heading[:-1]), np.sin(heading[:-1])], axis=1)
+    truth = np.column_stack([np.append(np.zeros((1, 2)), np.cumsum(steps, axis=0), axis=0), heading])
+    moves[:, 2] += np.deg2rad(0.5)
+    log = {"odometry": moves.tolist(), "truth": truth.tolist()}
+    (tmp_path / "log.json").write_text(json.dumps(log))
+    printed, result = measured("odometry.py", tmp_path, str(tmp_path / "log.json"))
+    row = result["rows"][0]
+    assert row["right"] == row["cells"] >= 20
+    assert row["off"] < 1.5
+    assert "split 0" in printed
 
 
 def test_detours_are_walked_around_shut_doors(tmp_path: Path) -> None:
@@ -286,3 +318,17 @@ def test_networks(tmp_path: Path) -> None:
     given = ["--networks", str(folder), "--runs", "1", "--memory", "10", "--no-peer", "--json", str(file)]
     subprocess.run([sys.executable, str(BENCHMARKS / "inference.py"), *given], check=True, capture_output=True)
     assert "needs" in json.loads(file.read_text())["rows"][0]["refused"]
+
+
+def test_tables_of_the_documents_are_written_row_by_row() -> None:
+    sys.path.insert(0, str(BENCHMARKS))
+    try:
+        written = importlib.import_module("tables").written
+    finally:
+        sys.path.remove(str(BENCHMARKS))
+    page = "# A\n\n| maze | done |\n| --- | ---: |\n| `3x3` | 1/2 |\n| `4x4` | 2/2 |\n\n| `3x3` | stays |\n"
+    changed = written(page, "| maze | done |", {"3x3": ["20/20"]})
+    assert changed == page.replace("1/2", "20/20")
+    for heading, maze in (("| no | such |", "3x3"), ("| maze | done |", "donut")):
+        with pytest.raises(ValueError, match="no"):
+            written(page, heading, {maze: ["x"]})

@@ -224,3 +224,8 @@ def test_halls_have_four_colours() -> None:
     assert (len(world.maze.rooms), set(world.maze.sights.values())) == (20, {0, 1, 2, 3})
     with pytest.raises(WorldError, match="cannot be given to a hall"):
         load_embodied("2x7", sights="ways")
+
+
+def test_a_body_that_sees_badly_does_not_give_up() -> None:
+    noise = {"pixels": 40.0, "gain": 0.1}
+    assert explore(embodied("4x4_alias", view="rgb", noise=noise), 4).steps_to_complete is not None

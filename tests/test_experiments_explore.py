@@ -5,6 +5,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
+import gymnasium as gym
 import numpy as np
 import pytest
 from cogmap.agent import Settings
@@ -22,7 +23,7 @@ from cogmap.experiments import (
     workers,
 )
 from cogmap.model import CogmapError
-from cogmap.worlds import MAZES, parse_maze, random_maze
+from cogmap.worlds import MAZES, MazeEnv, parse_maze, random_maze
 
 ONE = parse_maze("5", name="one")
 
@@ -205,3 +206,20 @@ def test_bad_walks_are_refused(options: dict[str, object], message: str) -> None
 def test_a_sweep_of_no_runs_is_refused() -> None:
     with pytest.raises(CogmapError, match="runs is 0"):
         explore_many(ONE, runs=0)
+
+
+class Priced(gym.Wrapper[Any, Any, Any, Any]):
+    """A world whose moves cost two and a half each."""
+
+    def step(self, action: Any) -> Any:
+        observation, *rest = super().step(action)
+        return {**observation, "cost": 2.5}, *rest
+
+
+def test_what_moves_cost_is_in_the_rows() -> None:
+    run, dear = explore(MazeEnv(MAZES["3x3"]), 0), explore(Priced(MazeEnv(MAZES["3x3"])), 0)
+    assert run.cost is None
+    assert "cost" not in run.to_dict()
+    assert dear.cost is not None
+    assert dear.to_dict()["cost"] == dear.cost == 2.5 * round(dear.cost / 2.5) > 0.0
+    assert summarise([dear], max_steps=50)["mean_cost"] == dear.cost

@@ -21,7 +21,7 @@ from cogmap.worlds import WorldError, load_world
 from fuzzing import KINDS, damaged, outcome
 from walks import walked
 
-SMALL = dict.fromkeys(KINDS, 60) | {"agent": 30, "recording": 60, "gzip": 30, "agent600": 0, "agent10000": 0}
+SMALL = dict.fromkeys(KINDS, 60) | {"agent": 14, "recording": 60, "gzip": 30, "agent600": 0, "agent10000": 0}
 SMALL |= {"doubting": 0, "lost": 0, "told": 12, "plane": 16, "no poses": 0}  # benchmarks/damage.py tries them all
 
 

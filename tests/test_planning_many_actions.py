@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from cogmap.agent import Agent
+from cogmap.inference import open_probability
 from cogmap.model import Motions, Whereabouts
 from cogmap.planning import Plan, Planner
-from cogmap.worlds import GRID, MazeEnv, hall
+from cogmap.worlds import GRID, MAZES, MazeEnv, hall
 
 MAZE = hall(4, 5, sights=None)
 WALK = ["right", "right", "down", "left", "left", "down", "right"]
@@ -59,3 +60,35 @@ def test_an_action_that_was_open_once_may_be_open_again() -> None:
     plan = planned(12, walked=7, opened=3)
     used = {plan.model.motions.names[action] for policy in plan.policies.tolist() for action in policy}
     assert used & {f"never {i}" for i in range(12)} == {"never 2", "never 3"}  # and what undoes it
+
+
+def walked(actions: int, steps: int, *, hatch: bool = False) -> Agent:
+    """An agent after a walk in 4x4_alias; with a hatch the first further action is open from step 20 on."""
+    world, agent = MazeEnv(MAZES["4x4_alias"]), Agent(with_more(actions), seed=0)
+    seen, _ = world.reset(seed=0)
+    for step in range(steps):
+        open_ = [*map(bool, seen["open"]), *[False] * actions]
+        if hatch and step >= 20:
+            open_[5] = True
+        action = agent.step({**seen, "open": open_})
+        if action > 4:
+            break
+        seen, *_ = world.step(action)
+    return agent
+
+
+@pytest.mark.parametrize("actions", [12, 40])
+def test_an_agent_is_not_lost_among_actions_that_are_never_open(actions: int) -> None:
+    agent = walked(actions, 24)
+    assert len(agent.map.places) == len(agent.map.visited_places) == 16
+    assert agent.belief.certainty > 0.9
+    assert agent._recognition.tracker.awake == (0, 1, 2, 3)
+
+
+def test_an_action_is_thought_of_once_it_was_open() -> None:
+    agent = walked(12, 30, hatch=True)
+    tracker = agent._recognition.tracker
+    assert tracker.awake == (0, 1, 2, 3, 4)  # ways are without `stay`
+    assert open_probability(tracker.best, tracker.best.here, 4) > 0.5
+    loaded = Agent.from_state(*agent.state())._recognition.tracker
+    assert (loaded.awake, loaded.best.awake) == (tracker.awake, tracker.awake)

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from charts import row, torus
 from cogmap.agent import Agent, Settings
-from cogmap.views import Recorder, replay_html
+from cogmap.views import Recorder, replay_html, show
 from recordings import eventful_walk, tolman_walk
 from walks import GRID
 
@@ -90,6 +90,14 @@ def test_the_first_picture_is_light(open_page: Any, pages: Path) -> None:
     page.wait_for_selector("#agent")
     assert page.locator("#window-svg [data-variable]").count() > 0
     assert page.evaluate("document.querySelectorAll('*').length") < 2000
+
+
+def test_it_runs_in_the_frame_of_a_notebook_whose_lines_are_joined(open_page: Any, tmp_path: Path) -> None:
+    shown = " ".join(show(tolman_walk())._repr_html_().splitlines())
+    (tmp_path / "notebook.html").write_text(f"<!DOCTYPE html><body>{shown}</body>", encoding="utf-8")
+    frame = open_page(tmp_path / "notebook.html").frame_locator("iframe")
+    frame.locator("#agent").wait_for()
+    assert frame.locator("#count").text_content() == "1 / 300"
 
 
 def test_the_slider_moves_the_agent(open_page: Any, pages: Path) -> None:

@@ -23,7 +23,7 @@ class Shown:
     height: int
 
     def _repr_html_(self) -> str:
-        text = html.escape(self.page, quote=True)
+        text = html.escape(self.page, quote=True).replace("\n", "&#10;")  # whoever joins our lines leaves its own
         look = f'width="100%" height="{self.height}" style="border: 0" title="replay of a walk"'
         return f'<iframe sandbox="allow-scripts" {look} srcdoc="{text}"></iframe>'
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any, Literal
 
 import gymnasium as gym
 
@@ -25,11 +26,11 @@ def load_world(
     name_or_path: str | Path,
     *,
     render_mode: str | None = None,
-    format: str = "text",
+    format: Literal["text", "commas", "ascii"] = "text",
     sights: Sights | None = None,
     seed: int = 0,
     sensors: Sequence[str] | None = None,
-    pose: str | None = None,
+    pose: Literal["motions", "displacement", "bearing", "none"] | None = None,
     strong: bool = True,
 ) -> PlaceEnv:
     """The world of a built-in name, or else of a maze or graph file: a `MazeEnv` or a `GraphWorld`.
@@ -59,7 +60,7 @@ def load_world(
             f"no world {str(name_or_path)!r}; use one of {', '.join(MAZES)}, or the path of a maze or graph file"
         )
     if is_graph_file(name_or_path) and not Path(name_or_path).is_dir():
-        options = {"sights": sights, "seed": seed, "sensors": sensors, "pose": pose, "strong": strong}
+        options: dict[str, Any] = {"sights": sights, "seed": seed, "sensors": sensors, "pose": pose, "strong": strong}
         return GraphWorld(read_graph(name_or_path, **options))
     drawn = "distinct" if sights is None else sights
     return MazeEnv(read_maze(name_or_path, format=format, sights=drawn, seed=seed), render_mode=render_mode)

@@ -106,7 +106,7 @@ def _rank(name: str) -> tuple[int, str]:
 
 def _entry(name: str, level: int) -> list[str]:
     value, last = pydoc.locate(name), name.rpartition(".")[2]
-    if isinstance(value, int):  # several are set in one line, which is more than mkdocstrings can read
+    if isinstance(value, int | str):  # several are set in one line, which is more than mkdocstrings can read
         return [f"{'#' * level} {last} {{ #{name} }}", "", f"```python\n{last} = {value!r}\n```", ""]
     options = ["    options:", f"      heading_level: {level}"]
     if level > 2:

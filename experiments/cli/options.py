@@ -107,17 +107,19 @@ def world_of(
     from ...worlds import NoisyWorld, load_world
 
     rates = _rates(noise or ())
+    how: dict[str, Any]
     given: Any = int(sights) if sights is not None and sights.isascii() and sights.isdecimal() else sights
     if name.startswith(MINIGRID):
         from ...body import BODILY, load_embodied
 
         of_body = {kind: rates.pop(kind) for kind in BODILY if kind in rates}
-        how: Any = {"view": view, "tiles": tiles, "turned": turned, "noise": of_body, "white": goal == "white"}
+        how = {"view": view, "tiles": tiles, "turned": turned, "noise": of_body, "white": goal == "white"}
         world = load_embodied(name.removeprefix(MINIGRID), format=format, sights=given, seed=seed, **how)
     elif view is not None or tiles is not None or turned:
         raise CogmapError(f"--view, --tiles and --turned are for worlds of MiniGrid, such as {MINIGRID}3x3, not {name}")
     else:
-        world = load_world(name, format=format, sights=given, seed=seed, pose=told)
+        how = {"format": format, "pose": told}  # refused by name where they are not known
+        world = load_world(name, sights=given, seed=seed, **how)
     return NoisyWorld(world, **rates) if rates else world
 
 

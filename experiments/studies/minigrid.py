@@ -10,10 +10,13 @@ from typing import Any
 import numpy as np
 
 from ...agent import Settings
+from ...baselines import TileFrontier
 from ...body import COLOURS, load_embodied
 from ...views import BLUE, GREY
 from ...worlds import Maze, hall
+from ...worlds import minigrid as mg
 from .. import Record, explore, kidnap, mean, navigate
+from ..low_level import TENTHS
 from .figures import Figure, panels, plot_bars
 from .intervals import wilson
 from .study import Findings, Study
@@ -39,6 +42,8 @@ class BodyRun(Record):
     low_level_steps: int | None = field(default=None, metadata={"optional": True})  # until every room, or the goal
     low_level_oracle: int | None = field(default=None, metadata={"optional": True})  # the fewest
     low_level_steps_to_see: int | None = field(default=None, metadata={"optional": True})  # nine tenths of the tiles
+    flat_to_see: int | None = field(default=None, metadata={"optional": True})  # of the nearest frontier over tiles
+    eager_to_see: int | None = field(default=None, metadata={"optional": True})  # of one that chooses at every step
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,8 @@ class Bodies(Study[Task, BodyRun]):
     notes = (
         "Rooms of 4 by 4 tiles, passages of 5, doors in the middle, offsets at random, four floor colours at random.",
         "The authors' shares are of more than 30 runs, within 18 steps a tile; no run here came near that.",
+        "Flat frontier: nearest-frontier search over tiles, which walks to the tile that it chose.",
+        "Eager frontier: the same, but it chooses anew at every step.",
         "White tile: halls of 3x4; known: explored before, then put elsewhere with a random heading, without a word.",
         "Noise: pixels 40 of 255, gain 10 %, slips 20 %, in 3x3. Needs the extra minigrid.",
     )
@@ -83,7 +90,9 @@ class Bodies(Study[Task, BodyRun]):
         seen = explore(world, seed, settings=settings)
         complete, share = seen.steps_to_complete is not None, seen.tiles_seen or 0.0
         there = share >= SEEN if case in SIZES else complete
-        return BodyRun(case, seed, there, seen.low_level_steps, seen.low_level_oracle, seen.low_level_steps_to_see)
+        flat = [_flat(size, seed, eager=eager) for eager in (False, True)] if case in SIZES else [None, None]
+        low = seen.low_level_steps, seen.low_level_oracle, seen.low_level_steps_to_see
+        return BodyRun(case, seed, there, *low, *flat)
 
     def summarise(self, rows: Sequence[BodyRun]) -> Findings:
         """Shares and means by case."""
@@ -102,19 +111,33 @@ def _hall(size: str, seed: int) -> Maze:
     return Maze(size, dict(made.sights), made.walls)
 
 
+def _flat(size: str, seed: int, *, eager: bool) -> int | None:
+    """Steps until nearest-frontier search over tiles has seen nine tenths; None if it never has."""
+    env, agent = mg.rooms_env(_hall(size, seed)), TileFrontier(eager=eager)
+    (seen, _), ended = env.reset(seed=seed), False
+    while TENTHS not in env.tally.shares and not ended:
+        seen, _, _, ended, _ = env.step(agent.step(seen))
+    return env.tally.shares.get(TENTHS)
+
+
 def _row(case: str, runs: Sequence[BodyRun]) -> dict[str, Value]:
     both = [(run.low_level_steps, run.low_level_oracle) for run in runs if run.low_level_steps and run.low_level_oracle]
     least = sum(b for _, b in both)
-    see = mean(run.low_level_steps_to_see for run in runs)
     return {
         "case": case,
         "runs": len(runs),
         "done": sum(run.done for run in runs),
         "authors": AUTHORS.get(case),
-        "steps to see 90 %": None if see is None else round(see, 1),
+        "steps to see 90 %": _rounded(mean(run.low_level_steps_to_see for run in runs)),
+        "flat frontier": _rounded(mean(run.flat_to_see for run in runs)),
+        "eager frontier": _rounded(mean(run.eager_to_see for run in runs)),
         "steps to all rooms or goal": None if not both else round(sum(a for a, _ in both) / len(both), 1),
         "over the fewest": round(sum(a for a, _ in both) / least, 3) if least else None,
     }
+
+
+def _rounded(value: float | None) -> float | None:
+    return None if value is None else round(value, 1)
 
 
 def _shares(rows: Sequence[BodyRun]) -> Figure:

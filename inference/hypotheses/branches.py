@@ -124,7 +124,7 @@ class Walker:
         if staying is not None:
             yield staying
         if each > 0.0 and stayed + log(each) > self.floor - self.surplus:
-            for way in range(h.scheme.count):
+            for way in h.awake:
                 if way != action:
                     yield from self._walk(way, stayed + log(each), 1.0)
         yield from self._moved()
@@ -140,8 +140,9 @@ class Walker:
         """It is where it was: told to stay, blocked, failed, or put there; None if that is below the floor."""
         action, fails = self.sensed.action, self.fails
         self.arrived.add(self.h.here)
-        stays = [1.0 - self.open(way) * (1.0 - fails) for way in range(self.h.scheme.count)]
-        lost = each * ((action is not None) + sum(p for way, p in enumerate(stays) if way != action))
+        stays = {way: 1.0 - self.open(way) * (1.0 - fails) for way in self.h.awake}
+        asleep = self.h.scheme.count - len(stays)
+        lost = each * ((action is not None) + asleep + sum(p for way, p in stays.items() if way != action))
         given = (1.0 - astray) * (1.0 if action is None else stays[action])
         failed = 0.0 if action is None else (1.0 - astray) * self.open(action) * fails
         put_here = exp(self.put_there + self.h.weight - before)

@@ -97,7 +97,7 @@ class _Calm:
         if not self.astray:
             return True
         each = log(self.astray / h.scheme.count) + self.stayed
-        for way in range(h.scheme.count):
+        for way in h.awake:
             if way == action:
                 continue
             lead = leads(h, h.here, self.walker.place, way)
@@ -143,7 +143,8 @@ class _Calm:
 
     def _best_ways(self) -> float:
         total, wrong = 0.0, self.chances.wrong
-        for reading in self.sensed.ways:
+        for way in self.h.awake:
+            reading = self.sensed.ways[way]
             if reading is not None:
                 sure = max(reading, 1.0 - reading)
                 total += log(sure * (1.0 - wrong) + (1.0 - sure) * wrong)

@@ -41,7 +41,8 @@ def was_rebuilt(h: Hypothesis, number: int, place: Place, sensed: Sensed) -> boo
 
 def _ways_as_they_were(h: Hypothesis, number: int, place: Place, sensed: Sensed) -> float:
     q = 1.0
-    for way, reading in enumerate(sensed.ways):
+    for way in h.awake:
+        reading = sensed.ways[way]
         if reading is not None:
             q *= reading_probability(h.chances, probability(way_odds(h, number, place, way)), reading)
     return q
@@ -50,7 +51,8 @@ def _ways_as_they_were(h: Hypothesis, number: int, place: Place, sensed: Sensed)
 def _anew(h: Hypothesis, sensed: Sensed) -> float:
     """P(ways as they are read), of a place of which nothing is known: that of one that was rebuilt."""
     p = 1.0
-    for way, reading in enumerate(sensed.ways):
+    for way in h.awake:
+        reading = sensed.ways[way]
         if reading is not None:
             p *= reading_probability(h.chances, h.open(way), reading)
     return p
@@ -70,7 +72,8 @@ def log_predictive(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | N
     for sensor, reading in enumerate(sensed.sights):
         if reading is not None:
             p *= new_sight_probability(h, sensor, reading)
-    for way, reading in enumerate(sensed.ways):
+    for way in h.awake:
+        reading = sensed.ways[way]
         if reading is not None:
             p *= reading_probability(chances, _expected_open(h, key, way, back, source), reading)
     return log(max(p, LEAST)) + (0.0 if sensed.others is None else sensed.others(None))
@@ -124,6 +127,8 @@ def new_sight_probability(h: Hypothesis, sensor: int, reading: Reading) -> float
 
 def way_odds(h: Hypothesis, number: int, place: Place, way: int) -> float:
     """Log odds that a way is open: what was read here, and from the other side of the door."""
+    if len(h.awake) < h.scheme.count and way not in h.awake:
+        return -h.chances.limit
     return odds_beyond(h, number, place.ways[way].net, way, h.neighbour(place, way))
 
 
@@ -156,7 +161,7 @@ def other_side(h: Hypothesis, other: int, back: int, number: int) -> float:
 def _same_door(chances: Chances, net: float) -> float:
     found = chances.doors.get(net)
     if found is None:
-        likelihood = exp(min(net * chances.unit, 50.0))
+        likelihood = strength(net * chances.unit)
         apart = (1.0 - chances.undone) * (chances.open * likelihood + 1.0 - chances.open)
         found = chances.doors[net] = log((chances.undone * likelihood + apart) / (chances.undone + apart))
     return found
@@ -173,11 +178,16 @@ def same_door(h: Hypothesis, place: Place, way: int, other: int, number: int) ->
     found = chances.pairs.get(key)
     if found is None:
         p, half = chances.open, 0.5 * chances.unit
-        one, two = exp(min(mine.net * half, 50.0)), exp(min(its.net * half, 50.0))
+        one, two = strength(mine.net * half), strength(its.net * half)
         same = chances.undone * (p * one * two + (1.0 - p) / (one * two))
         apart = (1.0 - chances.undone) * (p * one + (1.0 - p) / one) * (p * two + (1.0 - p) / two)
         found = chances.pairs[key] = same / (same + apart)
     return found
+
+
+def strength(evidence: float) -> float:
+    """How much more likely something makes evidence of so many nats, within what can be multiplied."""
+    return exp(max(min(evidence, 50.0), -50.0))
 
 
 def probability(odds: float) -> float:

@@ -15,6 +15,9 @@ from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
 from .scheme import Reading, Sensed
 from .squares import across, around, tally
 
+SHUT = Way(-1.0, 0.0, 1.0)
+"""What is known of a way that nobody thinks of: it was read blocked."""
+
 SHOWN = 64
 """Labels of which a place has counts at most; of what was read there once in so many, the first is forgotten."""
 
@@ -110,7 +113,7 @@ def _lead(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         h.counts.yes[RELINKED] += way.to != to
         h.counts.no[RELINKED] += (way.to == to) / (way.walks * way.walks)
     if way.to not in (NOWHERE, to):
-        unlink(h, here, index, way)
+        _relink(h, here, index, to, branch)
         way = way._replace(walks=0, to=NOWHERE)
     elif way.to == NOWHERE:
         _count_link(h, place, index, to, branch)
@@ -124,6 +127,22 @@ def _lead(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) ->
         h.put(here, shared(h, here, h.places[here]))
     else:
         h.put(here, shared(h, here, with_way(h.places[here], index, walked)))
+
+
+def _relink(h: Hypothesis, here: int, index: int, to: int, branch: Alternative) -> None:
+    """A way leads elsewhere than was thought: the link there was is gone, or leads here only."""
+    place, inverse = h.places[here], h.scheme.inverse
+    way = place.ways[index]
+    if inverse is not None and (back := h.places[way.to].ways[inverse[index]]).walks and back.to == here:
+        h.counts.no[UNDONE] += not way.walks
+        h.links += 1  # that it leads off the chart says no more than that it does not lead back
+    elif h.scheme.displacements is not None:
+        off = float(h.beside(place, index) != way.to)
+        h.links -= 1
+        h.counts.yes[ELSEWHERE] = max(h.counts.yes[ELSEWHERE] - off, 0.0)
+        h.counts.no[ELSEWHERE] = max(h.counts.no[ELSEWHERE] - 1.0 + off, 0.0)
+        _count_link(h, place, index, to, branch)
+    unlink(h, here, index, way)
 
 
 @contextmanager
@@ -195,16 +214,18 @@ def _look(h: Hypothesis, number: int, sensed: Sensed, time: int) -> None:
         for sensor, (counts, reading) in enumerate(zip(place.sights, sensed.sights, strict=True))
     )
     rebuilt = bool(place.recent) and was_rebuilt(h, number, place, sensed)
-    ways = tuple(
-        way
-        if reading is None
-        else _read(h, way._replace(net=0.0, open=0.0, blocked=0.0, stays=0.0) if rebuilt else way, reading)
-        for way, reading in zip(place.ways, sensed.ways, strict=True)
-    )
+    ways = list(place.ways) if len(h.awake) == h.scheme.count else [way if way.net else SHUT for way in place.ways]
+    for index in h.awake:
+        reading, way = sensed.ways[index], place.ways[index]
+        if reading is not None:
+            before = way._replace(net=0.0, open=0.0, blocked=0.0, stays=0.0) if rebuilt else way
+            ways[index] = _read(h, before, reading)
+        else:
+            ways[index] = way
     if not place.recent:
         _count_looks(h, sensed)
     recent = (*place.recent[-RECENT + 1 :], time)
-    looked = Place(sights, ways, place.frame, place.position, recent, place.into, place.share)
+    looked = Place(sights, tuple(ways), place.frame, place.position, recent, place.into, place.share)
     h.here = number
     _turn(h, place, ways)
     h.put(number, shared(h, number, looked))
@@ -283,8 +304,8 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     """
     opened, blocked, wrong, right, beside, shut, undone, one_way = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     chances = h.chances
-    for index, way in enumerate(place.ways):
-        other = h.neighbour(place, index)
+    for index in h.awake:
+        way, other = place.ways[index], h.neighbour(place, index)
         known = other != NOWHERE
         odds = odds_beyond(h, number, way.net, index, other)
         if way.net or odds != (chances.beside if known else chances.odds):
@@ -314,11 +335,12 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
 def _stayed(h: Hypothesis, number: int, place: Place) -> tuple[float, float]:
     """Moves through open ways of a place that did not lead on, and the share of other actions that would not either."""
     count, leads_on = h.scheme.count, 1.0 - h.chances.fails
-    opened = [probability(way_odds(h, number, place, way)) for way in range(count)]
-    stays = [1.0 - p * leads_on for p in opened]
+    opened = {way: probability(way_odds(h, number, place, way)) for way in h.awake}
+    stays = {way: 1.0 - p * leads_on for way, p in opened.items()}
+    others = 1.0 + count - len(stays) + sum(stays.values())
     stayed = strayed = 0.0
-    for way, known in enumerate(place.ways):
-        failed = known.stays * opened[way]
+    for way, p in opened.items():
+        failed = place.ways[way].stays * p
         stayed += failed
-        strayed += failed * (1.0 + sum(stays) - stays[way]) / count
+        strayed += failed * (others - stays[way]) / count
     return stayed, strayed

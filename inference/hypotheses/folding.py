@@ -11,6 +11,12 @@ from .records import NOWHERE, Place
 from .uniting import ContradictionError, Union
 from .weighing import Links, scored
 
+MORE = 12.0
+"""Nats that what is scored last may gain at most: fewer places, fewer ways."""
+
+OUT_OF_THE_QUESTION = -1000.0
+"""Nats that a folding gains which says in other words what is held already."""
+
 
 def pairs(h: Hypothesis, *, most: int = 12) -> Iterator[tuple[int, int, bool]]:
     """The place where the agent is with each that looks like it: (one, other, whether their chart closes on itself).
@@ -39,21 +45,18 @@ def _may_close(h: Hypothesis, one: Place, other: Place) -> bool:
     return h.scheme.displacements is not None and one.frame == other.frame
 
 
-def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) -> Hypothesis | bool:
-    """The hypothesis in which two places are one.
-
-    Where its log weight is below `floor`: whether it was contradicted, so that it is far below.
-    """
-    united = Union(h, floor=floor - h.weight - 12.0)
+def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) -> Hypothesis | float:
+    """The hypothesis in which two places are one; where its log weight is below `floor`, what it gains at most."""
+    united = Union(h, floor=floor - h.weight - MORE)
     try:
         united.unite(one, other, period=period)
     except ContradictionError:
-        return True
+        return united.gain + MORE
     if _leads_nowhere(united):
-        return True
+        return OUT_OF_THE_QUESTION
     gain, links = scored(united)
     if h.weight + gain < floor:
-        return False
+        return gain
     return _built(united, h.weight + gain, links)
 
 
@@ -100,7 +103,7 @@ def _count(united: Union, h: Hypothesis, more: Links) -> None:
         counts.no[SQUARE] = max(counts.no[SQUARE] + more.open_square, 0.0)
         counts.no[NEW] = max(h.links - h.size + 1 - counts.yes[SQUARE], 0.0)
         return
-    off = more.off + (united.charts.periods is not None)
+    off = more.off - more.astray + (united.charts.periods is not None)
     counts.yes[ELSEWHERE] = max(counts.yes[ELSEWHERE] + off, 0.0)
     counts.no[ELSEWHERE] = max(counts.no[ELSEWHERE] + more.ways - more.off, 0.0)
 

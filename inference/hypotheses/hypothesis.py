@@ -10,7 +10,7 @@ from .chances import Chances
 from .layered import Layered
 from .rates import BESIDE, OPEN, SIGHT_MISREAD, STAYED, UNDONE, WAY_MISREAD, RateCounts
 from .records import NOWHERE, Place, Position, Share
-from .scheme import WayScheme
+from .scheme import Sensed, WayScheme
 from .squares import across
 
 SHARES = (
@@ -22,6 +22,9 @@ SHARES = (
 
 SQUARES = 0.6
 """Rate of squares that close from which on a way is taken to lead where it closes one."""
+
+FEW = 8
+"""Ways up to which all are thought of."""
 
 OWN = 2.0
 """Looks at one way that count as much as all looks at any way."""
@@ -53,13 +56,14 @@ class Hypothesis:
         chances: the rates expected at this step.
         origin: the hypothesis before the last step, if this one only extends it.
         apart: it says of some place that it is not where the pose says; that may be all that it differs in.
+        awake: the ways that are thought of: where there are many, those that were ever open, or not read.
         touched: numbers of the records changed since it was forked.
         clan: the same of those that go back to one hypothesis at the last time that was decided.
     """
 
     __slots__ = (
-        "apart", "at", "chances", "clan", "counts", "crowd", "digest", "here", "kinds", "links", "looks", "origin",
-        "periods", "places", "scheme", "shown", "size", "touched", "undo", "weight",
+        "apart", "at", "awake", "chances", "clan", "counts", "crowd", "digest", "here", "kinds", "links", "looks",
+        "origin", "periods", "places", "scheme", "shown", "size", "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -77,6 +81,7 @@ class Hypothesis:
         self.size = self.links = self.digest = 0
         self.origin: Hypothesis | None = None
         self.apart, self.clan = False, 0
+        self.awake = awake_ways(scheme)
         self.crowd: Mapping[int, float] | None = None
         self.touched: dict[int, None] = {}
         self.chances = Chances(self.counts, [1] * scheme.sensors)
@@ -91,6 +96,7 @@ class Hypothesis:
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
         other.origin, other.touched, other.digest = None, {}, self.digest
         other.apart, other.crowd, other.clan = self.apart, self.crowd, self.clan
+        other.awake = self.awake
         return other
 
     @property
@@ -205,6 +211,26 @@ class Hypothesis:
             others = self.shown.get((sensor, now)) or ()
             self.shown[sensor, now] = (*others, number)
             self.kinds[sensor] += not others
+
+
+def awake_ways(scheme: WayScheme, known: tuple[int, ...] = (), sensed: Sensed | None = None) -> tuple[int, ...]:
+    """The ways that are thought of.
+
+    Of a long list of actions most may never be open. What they say of a place is the same of all places, and were they
+    weighed, each place would be expected to have some of them open. So they are left out until they are first read as
+    anything but blocked, are not read, or are to be taken.
+
+    Args:
+        scheme: the ways.
+        known: those that were thought of so far.
+        sensed: what is sensed now.
+    """
+    if scheme.count <= FEW:
+        return tuple(range(scheme.count))
+    if sensed is None:
+        return known
+    now = {way for way, reading in enumerate(sensed.ways) if reading != 0.0 or way == sensed.action}
+    return known if now <= set(known) else tuple(sorted(now.union(known)))
 
 
 def settle_alike(hypotheses: Sequence[Hypothesis]) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from .chances import Chances
 from .extending import shared
-from .hypothesis import Hypothesis
+from .hypothesis import Hypothesis, awake_ways
 from .options import TrackerOptions
 from .records import NOWHERE, Place
 from .scheme import WayScheme
@@ -33,6 +33,8 @@ def tracker_knowing(
         options: how many hypotheses are kept.
     """
     h = Hypothesis(scheme)
+    open_ = {way for place in places.values() for way, known in enumerate(place.ways) if known.net > 0.0 or known.walks}
+    h.awake = tuple(sorted({*awake_ways(scheme), *open_}))
     h.chances = Chances(h.counts, [n + 1 for n in labels], size=max(len(places), 1))
     for number, place in places.items():
         h.put(number, place)
@@ -42,5 +44,6 @@ def tracker_knowing(
     h.links, h.here = len(links), here
     h.settle()
     tracker = Tracker(scheme, options)
+    tracker.awake = h.awake
     tracker.hypotheses, tracker.time, tracker.labels = [h], time, tuple(n + 1 for n in labels)
     return tracker

@@ -146,7 +146,8 @@ def _predicted(h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Co
     for number, p in belief.items():
         p *= 1.0 - chances.moved
         place, stays = h.places[number], each if action is not None else 1.0 - chances.astray
-        for way in range(h.scheme.count):
+        stays += each * (h.scheme.count - len(h.awake))
+        for way in h.awake:
             q = p * (1.0 - chances.astray if way == action else each)
             opened = probability(way_odds(h, number, place, way)) * (1.0 - fails)
             lead = leads(h, number, place, way)

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from ...model import CogmapError
 from .attempts import Attempt, Tried
-from .hypothesis import Hypothesis, digest
+from .hypothesis import Hypothesis, awake_ways, digest
 from .layered import Layered, Shared
 from .lookback import Past
 from .options import Change
-from .rates import ROWS, RateCounts
+from .rates import BLAMED, ROWS, STAYED, TRACE, RateCounts
 from .records import NOWHERE, Place, Share, Way
 from .replaying import History
 from .scheme import WayScheme
@@ -26,6 +26,12 @@ from .streams import DAMAGED, Reader, Writer
 Arrays = dict[str, NDArray[Any]]
 
 VERSION = 1
+
+LONGEST = 10**6
+"""Steps that may be kept."""
+
+MUCH, NET, FAR = 1e12, 128.0, 10**12
+"""What counts, evidence of a way in readings, and coordinates are below."""
 
 FIRST_RATES, FIRST_SHARE, FIRST_WAY = 13, 8, 5
 """Rates, and numbers of what a place shares, and of a way, of a state that does not say how many it has."""
@@ -45,6 +51,7 @@ class Parts:
     evidence: float
     numbers: tuple[int, int, bool, int]
     """Time, place in `doubts`, whether all is clear, steps without doubt."""
+    awake: tuple[int, ...]
 
 
 def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
@@ -87,6 +94,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         "length": parts.history.length,
         "rates": ROWS,
         "share": len(Share()),
+        "awake": list(parts.awake),
         "way": len(Way()),
     }
     arrays = out.rows()
@@ -169,26 +177,33 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
     shared = _shared(_read_maps(scheme, source)) if entries else (Shared(), Shared(), Shared())
     hypotheses = [_read_hypothesis(scheme, entry, shared, source, rates=rates) for entry in entries]
     alive = len(hypotheses) - int(header["past"])
-    _finish(hypotheses, alive)
+    _finish(hypotheses, alive, int(header["numbers"][0]))
     past: list[Past] = []
     for h in hypotheses[alive:]:
         time, *labels = source.numbers(1 + scheme.sensors)
+        if min(labels, default=1) < 1:
+            raise ValueError("there were fewer labels than none")
         past.append(Past(time, h, h.marks, tuple(labels), source.reals(1)[0]))
+    if not 1 <= int(header["length"]) <= LONGEST:
+        raise ValueError("its steps are kept as long as none can be")
     history = History(int(header["length"]))
     for time, sensed in source.many(lambda: source.sensed(scheme)):
         sensed.check(scheme)
         history.add(sensed, time)
     tried: dict[Attempt, Tried] = {}
-    for one, other, period, apart, time, wait, size, links, against in source.many(lambda: source.numbers(9)):
-        tried[one, other, bool(period), apart] = Tried(time, wait, size, links, bool(against))
+    for one, other, period, apart, *rest in source.many(lambda: source.numbers(9)):
+        tried[one, other, bool(period), apart] = Tried(*rest)
     doubts = source.row()
     source.end()
     kind, places = header["change"]
     time, doubted, clear, quiet = header["numbers"]
+    awake = tuple(int(way) for way in header.get("awake", range(scheme.count)))
+    if not {*awake_ways(scheme)} <= set(awake) <= set(range(scheme.count)) or sorted(set(awake)) != [*awake]:
+        raise ValueError("it thinks of ways that there are not")
     evidence, labels = float(header["evidence"]), tuple(int(n) for n in header["labels"])
     parts = Parts(
         hypotheses[:alive], history, tried, tuple(past), Change(kind, tuple(places)), doubts, labels, evidence,
-        (int(time), int(doubted), bool(clear), int(quiet)),
+        (int(time), int(doubted), bool(clear), int(quiet)), awake,
     )  # fmt: skip
     _check_parts(scheme, parts)
     return parts
@@ -260,7 +275,7 @@ def _read_hypothesis(
     return h
 
 
-def _finish(hypotheses: Sequence[Hypothesis], alive: int) -> None:
+def _finish(hypotheses: Sequence[Hypothesis], alive: int, time: int) -> None:
     """Check hypotheses that share a layer, and work their digests out; each place that they share once."""
     if not hypotheses:
         return
@@ -269,7 +284,8 @@ def _finish(hypotheses: Sequence[Hypothesis], alive: int) -> None:
     total = sum(shared.values())
     for k, h in enumerate(hypotheses):
         own = h.places.layers[1]
-        _check(h, own if k else [*base, *own])
+        _check(h)
+        _check_places(h, own if k else [*base, *own], time)
         if k < alive:
             _check_index(h)
         h.digest = total + sum(
@@ -277,27 +293,54 @@ def _finish(hypotheses: Sequence[Hypothesis], alive: int) -> None:
         )
 
 
-def _check(h: Hypothesis, changed: Iterable[int]) -> None:
-    """Refuse a map with ways to places that there are not, or numbers that are none.
+def _check(h: Hypothesis) -> None:
+    """Refuse what is counted and thought of the whole map, where that can be of none."""
+    counts = (*h.counts.yes, *h.counts.no, *(count for both in (*h.looks, *h.undo.values()) for count in both))
+    if h.places.get(h.here) is None or not (isfinite(h.weight) and all(abs(count) < MUCH for count in counts)):
+        raise ValueError("its agent is in no place of its map, or counts what is no number")
+    yes, no = h.counts.yes, h.counts.no
+    if not (0.0 <= yes[BLAMED] <= 1.0 and yes[STAYED] > -TRACE and (yes[STAYED] < TRACE or no[STAYED] > 0.0)):
+        raise ValueError("its moves failed less often than never")
+    if not all(count >= 0.0 for both in (*h.looks, *h.undo.values()) for count in both):
+        raise ValueError("it was read as open or blocked less than never")
+    if h.crowd is not None:
+        known = all(h.places.get(number) is not None for number in h.crowd)
+        if not known or h.here not in h.crowd or not all(-MUCH < weight < 1e-6 for weight in h.crowd.values()):
+            raise ValueError("its agent may be in places of no map")
+    for rows in h.periods.values():
+        sized = all(len(row) == len(h.scheme.origin) and max(map(abs, row)) < FAR for row in rows)
+        firsts = [next((at for at, x in enumerate(row) if x > 0), -1) for row in rows]
+        if not sized or -1 in firsts or any(any(row[:at]) for row, at in zip(rows, firsts, strict=True)):
+            raise ValueError("its map closes on itself by steps that are none")
+        if sorted(set(firsts)) != firsts:
+            raise ValueError("its map closes on itself by steps that are out of order")
+
+
+def _check_places(h: Hypothesis, numbers: Iterable[int], time: int) -> None:
+    """Refuse places with ways to places that there are not, or numbers that are none.
 
     Args:
         h: the hypothesis.
-        changed: its places that are looked at; the others were found right in another one.
+        numbers: of the places that are looked at; the others were found right in another one.
+        time: of the next step.
     """
-    looks = (count for both in h.looks for count in both)
-    if h.places.get(h.here) is None or not all(map(isfinite, (h.weight, *h.counts.yes, *h.counts.no, *looks))):
-        raise ValueError("its agent is in no place of its map, or counts what is no number")
-    for number in changed:
-        place = h.places.get(number)
+    ways, known = range(h.scheme.count), h.places.get
+    for number in numbers:
+        place = known(number)
         if place is None:
             continue
-        ends = [*(way.to for way in place.ways if way.to != NOWHERE), *(source for source, _ in place.into)]
-        values = [*place.share, *(x for way in place.ways for x in (*way[:3], way.stays))]
-        known = all(h.places.get(end) is not None for end in ends)
-        if not (known and all(0 <= way < h.scheme.count for _, way in place.into) and all(map(isfinite, values))):
-            raise ValueError(f"place {number} leads to no place of its map, or counts what is no number")
-        if not place.recent or not all(label >= 0 and isfinite(n) for c in place.sights for label, n in c.items()):
-            raise ValueError(f"place {number} was never visited, or shows what is no label")
+        ends = {way.to for way in place.ways if way.to != NOWHERE}.union(source for source, _ in place.into)
+        if any(known(end) is None for end in ends) or any(way not in ways for _, way in place.into):
+            raise ValueError(f"place {number} leads to no place of its map")
+        counts = [*place.share, *(x for way in place.ways for x in (way.open, way.blocked, way.walks, way.stays))]
+        nets = all(abs(way.net) < NET for way in place.ways)
+        if not (nets and min(counts) > -1e-6 and max(counts) < MUCH and max(map(abs, place.position), default=0) < FAR):
+            raise ValueError(f"place {number} counts what is no number")
+        recent = place.recent
+        if not recent or not recent[0] >= 0 or recent[-1] >= time or sorted(recent) != [*recent] or number >= time:
+            raise ValueError(f"place {number} was never visited")
+        if not all(label >= 0 and 0.0 <= n < MUCH for counts in place.sights for label, n in counts.items()):
+            raise ValueError(f"place {number} shows what is no label")
 
 
 def _check_index(h: Hypothesis) -> None:
@@ -305,9 +348,11 @@ def _check_index(h: Hypothesis) -> None:
     listed = [*(h.at.get(key) for key in h.at), *(k for key in h.shown for k in h.shown.get(key) or ())]
     if not all(number is None or h.places.get(number) is not None for number in listed):
         raise ValueError("its index names places that it has not")
-    if sum(1 for _ in h.places) != h.size:
-        raise ValueError("its map has not as many places as it says")
+    if sum(1 for _ in h.places) != h.size or not 0 <= h.links < MUCH:
+        raise ValueError("its map has not as many places or ways as it says")
     shown = {(sensor, label, k) for sensor, label in h.shown for k in h.shown.get((sensor, label)) or ()}
     labels = {(s, label, k) for k in h.places for s in range(h.scheme.sensors) if (label := h.places[k].label(s)) >= 0}
     if shown != labels:
         raise ValueError("its index of sights is not that of its places")
+    if h.kinds != [len({label for s, label, _ in shown if s == sensor}) for sensor in range(h.scheme.sensors)]:
+        raise ValueError("it has not as many sights as it says")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from math import log
 
+from .branches import unseen
 from .extending import shared, unlink, with_way
 from .hypothesis import Hypothesis
-from .rates import ELSEWHERE, MOVED, UNDONE
-from .records import NOWHERE, Place
+from .rates import MOVED, UNDONE
 from .weighing import rate_gain
 
 Counts = Mapping[int, tuple[float, float]]
@@ -16,47 +16,23 @@ Counts = Mapping[int, tuple[float, float]]
 
 
 def straightened(h: Hypothesis, number: int, *, floor: float) -> Hypothesis | None:
-    """The hypothesis in which a way of a place that was walked once leads elsewhere; None where that is below `floor`.
-
-    It leads where the chart says, if the way back from there was walked; or to where a walk came from whose way back it
-    is. On the one walk the agent was moved.
+    """The hypothesis in which a way of a place that was walked once leads to where a walk came from whose way back it
+    is; None where that is below `floor`. On the one walk the agent was moved.
     """
-    place = h.places[number]
+    place, inverse = h.places[number], h.scheme.inverse
+    if inverse is None:
+        return None
     for index, way in enumerate(place.ways):
-        if way.walks != 1 or h.scheme.inverse is None:
+        if way.walks != 1:
             continue
-        for to, counts, cost in _others(h, number, place, index):
-            gain = sum(rate_gain(h, rate, *more) for rate, more in counts.items()) - cost
-            if h.weight + gain >= floor:
-                return _cut(h, number, index, to, gain, counts)
+        sources = sorted(source for source, by in place.into if inverse[by] == index and source != way.to)
+        back = h.places[way.to].ways[inverse[index]]
+        crooked = len(sources) + (back.walks > 0 and back.to != number)
+        counts = {MOVED: (1.0, -1.0), UNDONE: (0.0, -float(crooked))}
+        gain = sum(rate_gain(h, rate, *more) for rate, more in counts.items()) - log(h.size + unseen(h))
+        if sources and h.weight + gain >= floor:
+            return _cut(h, number, index, sources[0], gain, counts)
     return None
-
-
-def _others(h: Hypothesis, number: int, place: Place, index: int) -> Iterator[tuple[int, Counts, float]]:
-    """(place, counts, nats besides) of where else a way may lead."""
-    way, beside = place.ways[index], _beside(h, number, place, index)
-    if beside not in (NOWHERE, way.to):
-        yield (
-            beside,
-            {MOVED: (1.0, -1.0), ELSEWHERE: (-1.0, 1.0), UNDONE: (1.0, -1.0)},
-            log(h.size / (h.size + 1.0)),
-        )
-        return
-    assert h.scheme.inverse is not None
-    back = h.places[way.to].ways[h.scheme.inverse[index]]
-    sources = sorted(source for source, by in place.into if h.scheme.inverse[by] == index and source != way.to)
-    crooked = len(sources) + (back.walks > 0 and back.to != number)
-    for source in sources:
-        yield source, {MOVED: (1.0, -1.0), UNDONE: (0.0, -float(crooked))}, log(2.0)
-
-
-def _beside(h: Hypothesis, number: int, place: Place, index: int) -> int:
-    """The place beyond a way on the chart, if its way back was found to lead here."""
-    beside = h.beside(place, index)
-    if beside == NOWHERE or h.scheme.inverse is None:
-        return NOWHERE
-    back = h.places[beside].ways[h.scheme.inverse[index]]
-    return beside if back.walks and back.to == number else NOWHERE
 
 
 def _cut(h: Hypothesis, number: int, index: int, to: int, gain: float, counts: Counts) -> Hypothesis:

@@ -4,24 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from heapq import nlargest
-from itertools import islice
 from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
-from .attempts import NEVER, Attempt, Tried, attempt
+from .attempts import CONTRADICTED, NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
 from .chances import Chances
 from .evidence import log_predictive
 from .extending import begin, extend
 from .folding import pairs, union
-from .hypothesis import Hypothesis, settle_alike
+from .hypothesis import Hypothesis, awake_ways, settle_alike
 from .logs import log_sum
 from .lookback import BACK, Past, passed_over
 from .options import Change, Checkpoint, TrackerOptions
 from .pruning import merged, normalised
+from .rates import ELSEWHERE
 from .reading import together, whereabouts
+from .recharting import recharted
 from .records import NOWHERE
 from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
@@ -36,6 +37,9 @@ NEAR = log(100.0)
 
 SHARED = 16
 """Steps after which several hypotheses share what they have in common."""
+
+IN_VAIN = -1e6
+"""Nats that are gained where something is not worth trying again for long."""
 
 DECIDED = 256
 """Steps after which what was open is decided, or hypotheses would differ in more and more that nothing ever tells."""
@@ -66,6 +70,7 @@ class Tracker:
         self.change = Change("revised")
         self.history = History()
         self.labels: tuple[int, ...] = ()
+        self.awake = awake_ways(scheme)
         self._settled = -1
         self._doubts: Sequence[int] = ()
         self._doubted = 0
@@ -105,7 +110,9 @@ class Tracker:
         if len(self._tried) > MANY:
             self._tried = {}
         self.history.add(sensed, self.time)
-        self.labels = tuple(n + 1 for n in labels)
+        self.labels, self.awake = tuple(n + 1 for n in labels), awake_ways(self.scheme, self.awake, sensed)
+        for h in self.hypotheses:
+            h.awake = self.awake
         if self.hypotheses:
             self.hypotheses = self._advanced(sensed)
         else:
@@ -132,7 +139,7 @@ class Tracker:
         """What `rollback` needs to undo the next step; it costs as much as there are hypotheses."""
         self._overwritten = []  # what the step before has overwritten is not to be put back
         kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
-        kept += self._clear, self._quiet, self._past
+        kept += self._clear, self._quiet, self._past, self.awake
         return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
 
     def rollback(self, checkpoint: Checkpoint) -> None:
@@ -148,7 +155,7 @@ class Tracker:
             )
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
         self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
-        self._clear, self._quiet, self._past = rest
+        self._clear, self._quiet, self._past, self.awake = rest
         for key, before in reversed(self._overwritten if tried is self._tried else ()):
             if before is None:
                 tried.pop(key, None)
@@ -157,14 +164,14 @@ class Tracker:
         self._tried, self._overwritten = tried, []
         self.history.cut(self.time)
         for h, weight in zip(self.hypotheses, checkpoint.weights, strict=True):
-            h.weight, h.chances = weight, Chances(h.counts, self.labels, size=h.size)
+            h.weight, h.awake, h.chances = weight, self.awake, Chances(h.counts, self.labels, size=h.size)
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
         """All that `restored` needs to walk on: a header for JSON, and arrays of numbers."""
         numbers = self.time, self._doubted, self._clear, self._quiet
         parts = Parts(
             self.hypotheses, self.history, self._tried, self._past, self.change, self._doubts, self.labels,
-            self.evidence, numbers,
+            self.evidence, numbers, self.awake,
         )  # fmt: skip
         return stored(self.scheme, parts)
 
@@ -182,14 +189,16 @@ class Tracker:
         tracker.evidence, tracker.change, tracker._tried = parts.evidence, parts.change, parts.tried
         tracker._past, tracker._doubts = parts.past, parts.doubts
         tracker.time, tracker._doubted, tracker._clear, tracker._quiet = parts.numbers
+        tracker.awake = parts.awake
         for h in tracker.hypotheses:
-            h.chances = Chances(h.counts, tracker.labels, size=h.size)
+            h.awake, h.chances = tracker.awake, Chances(h.counts, tracker.labels, size=h.size)
         return tracker
 
     # -- one step ------------------------------------------------------------------------------------------
 
     def _first(self, sensed: Sensed) -> Hypothesis:
         first = Hypothesis(self.scheme)
+        first.awake = self.awake
         first.chances = Chances(first.counts, self.labels)
         self.evidence = log_predictive(first, sensed, None, None, NOWHERE)
         self.change = Change("revised")
@@ -213,7 +222,7 @@ class Tracker:
         proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
         found = merged(children, proposed)
         found = self._decided([h for h in found if h.weight > found[0].weight - drop])
-        found = self._doubted_or_clear(found, previous, drop, wide)
+        found = self._doubted_or_clear(found, previous, sensed, drop)
         best = found[0]
         self.change = Change("extended", tuple(best.touched)) if best.origin is previous else Change("revised")
         return found
@@ -232,14 +241,16 @@ class Tracker:
         return found
 
     def _doubted_or_clear(
-        self, found: list[Hypothesis], previous: Hypothesis, drop: float, wide: float
+        self, found: list[Hypothesis], previous: Hypothesis, sensed: Sensed, drop: float
     ) -> list[Hypothesis]:
         """What is kept: while nothing is in doubt the best one alone, or else all, with what was passed over before."""
-        step = Past(self.time, previous, previous.marks, self.labels, 0.0)
+        step, wide = Past(self.time, previous, previous.marks, self.labels, 0.0), -log(self.options.least)
         if self._clear and len(found) > 1:
-            floor = found[0].weight - drop
-            again = self._looked_back((*self._past, step), floor, drop, wide)
-            found = merged(found, [*again, *(fold for h in again for fold in self._folds(h, floor))])
+            floor = found[0].weight - wide
+            over = passed_over((*self._past, step), self.history, sensed, narrow=drop, wide=wide, floor=floor)
+            again = nlargest(self.options.most, over, key=lambda h: h.weight)
+            folds = (fold for h in again if h.crowd is None for fold in self._folds(h, floor))
+            found = merged(found, [*again, *folds])
             self._clear, self._quiet = False, 0
         found, norm = normalised(found, drop=wide, most=self.options.most)
         self._past = (*self._past, step._replace(norm=norm))[-BACK:]
@@ -254,10 +265,6 @@ class Tracker:
         """Whether another hypothesis says more than that a place is not where the pose says."""
         doubt = log(self.options.doubt)
         return any(h.weight > doubt and (found[0].apart or not h.apart) for h in found[1:])
-
-    def _looked_back(self, past: tuple[Past, ...], floor: float, drop: float, wide: float) -> list[Hypothesis]:
-        found = passed_over(past, self.history, narrow=drop, wide=wide, floor=floor)
-        return list(islice(found, self.options.most))
 
     def _settle(self) -> None:
         """Share what the last step added, once it cannot be undone any more: nobody reads it differently by this."""
@@ -309,29 +316,43 @@ class Tracker:
         self._doubted -= 1
         number = self._doubts[self._doubted]
         place = h.places.get(number)
-        if place is not None and (straight := straightened(h, number, floor=h.weight - drop)) is not None:
-            yield straight
-        if place is None or self._tried.get(key := (number, number, False, 0), NEVER).blocks(h, self.time):
+        for one in {number, h.here} if place is not None else {h.here}:
+            yield from self._rethought(h, one, h.weight - drop)
+        key, floor = (number, number, False, 0), h.weight - drop
+        if place is None or self._tried.get(key, NEVER).blocks(h, self.time, floor):
             return
         if numbers := doubted(h, number, self.history):
-            other = without(h, numbers, self.history, floor=h.weight - drop)
+            other = without(h, numbers, self.history, floor=floor)
             if other is not None:
                 yield other
             else:
-                before = self._tried.get(key)
-                self._overwritten.append((key, before))
-                self._tried[key] = (before or NEVER).again(h, self.time, contradicted=True)
+                self._in_vain(key, h, IN_VAIN)
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
         """The foldings that are probable enough."""
         for one, other, period in pairs(h):
             key = attempt(h, one, other, period=period)
-            if self._tried.get(key, NEVER).blocks(h, self.time):
+            if self._tried.get(key, NEVER).blocks(h, self.time, floor):
                 continue
             united = union(h, one, other, period=period, floor=floor)
             if isinstance(united, Hypothesis):
                 yield united
+                yield from self._rethought(united, united.here, floor)
             else:
-                before = self._tried.get(key)
-                self._overwritten.append((key, before))
-                self._tried[key] = (before or NEVER).again(h, self.time, contradicted=united)
+                self._in_vain(key, h, united)
+
+    def _rethought(self, h: Hypothesis, number: int, floor: float) -> Iterator[Hypothesis]:
+        """Hypotheses in which ways of a place, or the loops that they close, lead elsewhere."""
+        key: Attempt = (number, number, True, 0)
+        if self._tried.get(key, NEVER).blocks(h, self.time, floor):
+            return
+        if (straight := straightened(h, number, floor=floor)) is not None:
+            yield straight
+        if h.counts.yes[ELSEWHERE] >= 0.5:
+            yield from recharted(h, number, floor=floor)
+            self._in_vain(key, h, CONTRADICTED)
+
+    def _in_vain(self, key: Attempt, h: Hypothesis, worth: float) -> None:
+        before = self._tried.get(key)
+        self._overwritten.append((key, before))
+        self._tried[key] = (before or NEVER).again(h, self.time, worth)

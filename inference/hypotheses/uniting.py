@@ -194,10 +194,10 @@ class Union:
             gained = sights_gain(self.h, sensor, mine, its)
             self.sights += gained
             self.gain += gained
-        ways: list[Way] = []
-        for index, (mine, its) in enumerate(zip(a.ways, b.ways, strict=True)):
+        ways = list(a.ways)
+        for index in self.h.awake:
             self.gain += self._ways_gain(first, a, second, b, index)
-            ways.append(self._one_way(first, index, mine, its))
+            ways[index] = self._one_way(first, index, a.ways[index], b.ways[index])
         recent = tuple(sorted({*a.recent, *b.recent}))[-RECENT:]
         sights = tuple(_sum(mine, its) for mine, its in zip(a.sights, b.sights, strict=True))
         self._first[second] = first

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from math import exp, lgamma, log
+from math import lgamma, log
 from typing import NamedTuple
 
 from .chances import Chances
+from .evidence import strength
 from .hypothesis import Hypothesis
 from .rates import ELSEWHERE, MEETING, NEW, RATE_PRIORS, SQUARE, UNDONE, crp_evidence
 from .records import NOWHERE
@@ -20,20 +21,22 @@ FACTOR = 0.6
 class Links(NamedTuple):
     """Ways between places: how many, how many of them off the chart, that do not lead back, that meet.
 
-    And, without poses, how many squares close, and do not.
+    Those off the chart of which a way back says no more are `astray`. Without poses, how many squares close, and do
+    not.
     """
 
     ways: int
     off: int
     crooked: int
     meeting: int
+    astray: int = 0
     square: float = 0.0
     open_square: float = 0.0
 
     def less(self, other: Links) -> Links:
         """The difference."""
         a, b = self, other
-        counts = a.ways - b.ways, a.off - b.off, a.crooked - b.crooked, a.meeting - b.meeting
+        counts = a.ways - b.ways, a.off - b.off, a.crooked - b.crooked, a.meeting - b.meeting, a.astray - b.astray
         return Links(*counts, a.square - b.square, a.open_square - b.open_square)
 
 
@@ -57,7 +60,7 @@ def _structure_gain(united: Union, more: Links) -> float:
     fewer = len(set(united.gone()))
     if h.scheme.displacements is not None:
         off = more.off + (united.charts.periods is not None)
-        gain = rate_gain(h, ELSEWHERE, off, more.ways - more.off)
+        gain = rate_gain(h, ELSEWHERE, off - more.astray, more.ways - more.off)
         return gain - off * log(h.size - fewer + 1.0)
     squares = max(h.counts.yes[SQUARE], 0.0)
     closed = max(h.links - h.size + 1 - squares, 0.0)
@@ -112,14 +115,15 @@ def _links(united: Union, *, apart: bool) -> Links:
     meeting = 0
     for number in united.members() if apart else united.classes:
         place = view(number)
-        for index, way in enumerate(place.ways):
+        for index in h.awake:
+            way = place.ways[index]
             if way.to != NOWHERE:
                 keys[number, index] = find(way.to)
         sources = {(find(source), index) for source, index in place.into}
         for source, index in sources:
             keys[source, index] = number
         meeting += len(sources) - len({index for _, index in sources})
-    count = off = crooked = 0
+    count = off = crooked = astray = 0
     for (number, index), to in keys.items():
         back = NOWHERE if inverse is None else view(to).ways[inverse[index]].to
         mutual = back != NOWHERE and find(back) == number
@@ -127,9 +131,11 @@ def _links(united: Union, *, apart: bool) -> Links:
             continue
         count += 1
         crooked += back != NOWHERE and not mutual
-        off += _off(united, number, index, to, apart=apart)
+        if _off(united, number, index, to, apart=apart):
+            off += 1
+            astray += _denied(united, number, index, to, apart=apart)
     squares = _squares(united, apart=apart) if h.scheme.displacements is None else (0.0, 0.0)
-    return Links(count, off, crooked, meeting if inverse is None else 0, *squares)
+    return Links(count, off, crooked, meeting if inverse is None else 0, astray, *squares)
 
 
 def _squares(united: Union, *, apart: bool) -> tuple[float, float]:
@@ -157,6 +163,15 @@ def _off(united: Union, number: int, index: int, to: int, *, apart: bool) -> boo
     return united.charts.ahead(united.find(number), index) != united.key(to)
 
 
+def _denied(united: Union, number: int, index: int, to: int, *, apart: bool) -> bool:
+    """Whether a link is known not to lead back to where a walk came from: that it is off the chart says no more."""
+    h, find = united.h, _itself if apart else united.find
+    if h.scheme.inverse is None:
+        return False
+    into = h.places[number].into if apart else united.view(number).into
+    return any(by == h.scheme.inverse[index] and find(source) != to for source, by in into)
+
+
 def _doors(united: Union, *, apart: bool) -> float:
     """log P(readings of the ways concerned), those of both sides of a door together."""
     h, inverse = united.h, united.h.scheme.inverse
@@ -166,9 +181,10 @@ def _doors(united: Union, *, apart: bool) -> float:
     total = 0.0
     for number in united.members() if apart else united.classes:
         place = view(number)
-        for index, way in enumerate(place.ways):
+        for index in h.awake:
             if (number, index) in done:
                 continue
+            way = place.ways[index]
             other = NOWHERE
             if inverse is not None:
                 other = (
@@ -195,7 +211,7 @@ def door_evidence(chances: Chances, mine: float, its: float, *, open_: float) ->
     ρ [π l m + (1 - π) / (l m)] + (1 - ρ) [π l + (1 - π) / l] [π m + (1 - π) / m],  l = exp(net · unit / 2)
     """
     p, half = open_, 0.5 * chances.unit
-    one, other = exp(mine * half), exp(its * half)
+    one, other = strength(mine * half), strength(its * half)
     same = p * one * other + (1.0 - p) / (one * other)
     apart = (p * one + (1.0 - p) / one) * (p * other + (1.0 - p) / other)
     return log(chances.undone * same + (1.0 - chances.undone) * apart)

@@ -157,7 +157,11 @@ class ModelFactor:
 
     @property
     def context(self) -> Context:
-        """What it shares with the other factors of its model."""
+        """What it shares with the other factors of its model.
+
+        Raises:
+            CogmapError: it belongs to no model yet.
+        """
         if self._context is None:
             raise CogmapError(f"{self.name}: it belongs to no model yet; give it to an Agent or a CognitiveMap")
         return self._context

@@ -116,7 +116,11 @@ class Features(Sight):
         return likely[0] if len(likely) == 1 else {number: float(told[number]) for number in likely}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, Any], places: int) -> None:
-        """Take over labels, counts and prototypes."""
+        """Take over labels, counts and prototypes.
+
+        Raises:
+            CogmapError: not one label a prototype.
+        """
         super().restore(state, arrays, places)
         self.memory.restore({part: arrays[f"{self.memory.name}.{part}"] for part in self.memory.state()})
         if self.memory.count != len(self.labels):

@@ -74,7 +74,11 @@ class Transition(ModelFactor):
             self.walked.set((place, action), False)
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
-        """Take over the arrays."""
+        """Take over the arrays.
+
+        Raises:
+            CogmapError: an action leads nowhere, not even back.
+        """
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=places, least=ELSEWHERE)
         keys, alpha, _ = self.table.concentration(np.arange(places * len(self.motions)))
@@ -199,6 +203,10 @@ class Transition(ModelFactor):
         keys = [key for key in self.table.concentrations(row) if key not in (EMPTY, place)]
         if neighbour not in (place, *keys):
             self.table.rename(row, keys[0] if keys else ELSEWHERE, neighbour)
+
+    def may_lead(self, place: int, action: int, neighbour: int) -> None:
+        """An action may lead to this place too, besides where it led before: that counts as once at least."""
+        self.raise_to(neighbour, place, action, 1.0)
 
     def learn(self, previous: int, action: int, next_: int, weight: float, *, back: bool = True) -> None:
         """A walked transition, weighted by its pairwise posterior; one that went nowhere was blocked (eq. B_up).

@@ -58,7 +58,11 @@ class Template:
     _factors: list[_Factor] = field(default_factory=list[_Factor])
 
     def variable(self, name: str, domain: Domain, *, observed: bool = False) -> str:
-        """Declare a variable of every slice; the name comes back. See `Variable`."""
+        """Declare a variable of every slice; the name comes back. See `Variable`.
+
+        Raises:
+            CogmapError: the name is taken, or as for `Variable`.
+        """
         if name in self._variables:
             raise CogmapError(f"template: the name {name!r} is taken; give each variable its own")
         if not callable(domain):
@@ -77,7 +81,11 @@ class Template:
         equation: str = "",
         table: object | None = None,
     ) -> None:
-        """Declare a factor of every slice, of the first, or of every step; see `GraphStructure.factor`."""
+        """Declare a factor of every slice, of the first, or of every step; see `GraphStructure.factor`.
+
+        Raises:
+            CogmapError: the scope is no list of variables of the template, or as for `GraphStructure.factor`.
+        """
         if isinstance(scope, str | Before):
             raise CogmapError(f"template: the scope of {name!r} is {scope!r}; give a list of variables")
         names = [item.name if isinstance(item, Before) else item for item in scope]

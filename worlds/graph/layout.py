@@ -108,7 +108,11 @@ class Layout:
         return None if self.lengths is None else float(self.lengths[found[0]]) if found else 0.0
 
     def displacement(self, place: Any, way: Any) -> Floats:
-        """How far `way` leads from `place` along each axis; zeros of none."""
+        """How far `way` leads from `place` along each axis; zeros of none.
+
+        Raises:
+            WorldError: there are neither positions nor bearings with lengths.
+        """
         found = [i for i in self._row(place) if self.ways[i] == way]
         if not found:
             return np.zeros(2 if self.coordinates is None else self.coordinates.shape[1])

@@ -13,7 +13,7 @@ from ...motions import Motions, Position
 from ...percept import Percept
 from ...periods import Periods
 from ...visits import Visits
-from ..base import Floats, Ints, ModelFactor
+from ..base import Floats, Ints, ModelFactor, Successors
 from ..transition import Transition
 
 Ahead = Sequence[tuple[Ints, float, float]]
@@ -127,6 +127,10 @@ class Pose(ModelFactor):
     def ahead(self, place: int, action: int) -> tuple[Position | None, int | None]:
         """Where `action` leads from a place by its pose, and the place that is there; None for what is not known."""
         raise NotImplementedError
+
+    def leading(self, ahead: Successors, percept: Percept) -> Successors:
+        """Where a move may lead, in the light of what was measured of it."""
+        return ahead
 
     def settle(self, place: int, position: Position, *, step: int) -> None:
         """Give a place its position."""

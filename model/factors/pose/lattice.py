@@ -100,7 +100,11 @@ class Lattice(Pose):
         return {"positions": [encode(position) for position in self.positions], **periods}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
-        """Take over positions and counts."""
+        """Take over positions and counts.
+
+        Raises:
+            CogmapError: a place is not where its position has it.
+        """
         self.periods = tuple(tuple(map(int, row)) for row in state.get("periods", ()))
         positions = [decode(position) for position in state["positions"]]
         self._check(positions, places)

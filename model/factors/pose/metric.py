@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,12 @@ from numpy.typing import NDArray
 
 from ...changes import Store
 from ...column import Column
-from ..base import Context, Floats, Ints
+from ...percept import Percept
+from ..base import Context, Floats, Ints, Successors
+from .base import Growing
 from .none import NoPose
 from .odometer import Odometer, direction
-from .relaxing import AXES, Measured
+from .relaxing import AXES, Measured, around, drift, relaxed, straightened
 
 UNKNOWN = 1e18
 """Stands for a coordinate that nobody knows."""
@@ -21,8 +24,17 @@ UNKNOWN = 1e18
 RECENT = 4
 """Visits whose time is kept with a place."""
 
-WALK = 7
-"""What is kept of a way that was walked: place, action, where it led, how often it was measured, the mean move."""
+TOLD = 1e-4
+"""Likelihood of what was measured where a move led elsewhere than it was found to lead."""
+
+CLOSED = 1e-3
+"""Mean lengths of a way by which a loop may be open and positions stay as they are."""
+
+MOST = 400
+"""Places that are relaxed at once, those nearest to where the loop closed."""
+
+WALK = 8
+"""What is kept of a walk: place, action, where it led, how often it was measured, the mean move, and the heading."""
 
 
 class MetricPose(NoPose):
@@ -34,6 +46,7 @@ class MetricPose(NoPose):
         source: `[S, 2]` the place and the action that a place was imagined behind; -1 of none.
         been: `[S, 4]` the last steps at which the agent was there; -1 of none.
         walks: `[2 S, 7]` the ways that were walked; see `WALK`.
+        heading: radians, anticlockwise, by which what the agent takes for north has turned, where no bearings are seen.
         odometer: how long ways are, and how far measurements err.
     """
 
@@ -49,12 +62,15 @@ class MetricPose(NoPose):
         self.source = Column("source", np.int64, width=2, fill=-1, changes=log)
         self.been = Column("been", np.int64, width=RECENT, fill=-1, changes=log)
         self.walks = Column("walks", np.float64, width=WALK, fill=-1.0, changes=log)
+        self.heading = Column("heading", np.float64, changes=log)
+        self.heading.resize(1)
         self.odometer = Odometer(log)
+        self.led: tuple[Percept, int] | None = None
 
     @property
     def stores(self) -> tuple[Store, ...]:
         """Where places are, and what is known of their ways."""
-        return self.where, self.bearings, self.source, self.been, self.walks, self.odometer.noted
+        return self.where, self.bearings, self.source, self.been, self.walks, self.heading, self.odometer.noted
 
     def grow(self, places: int) -> None:
         """Nothing is known of new places."""
@@ -109,6 +125,12 @@ class MetricPose(NoPose):
         apart = np.linalg.norm(where - self.where.values[place], axis=1) / self.length
         return np.where(where[:, 0] < UNKNOWN, apart, 1.0)
 
+    def leading(self, ahead: Successors, percept: Percept) -> Successors:
+        """The place that `arrive` found, where it found one, is more probable than others by `TOLD`."""
+        if self.led is None or self.led[0] is not percept:
+            return ahead
+        return replace(ahead, coupling=ahead.coupling * np.where(ahead.places == self.led[1], 1.0, TOLD))
+
     def steps_in(self, place: int) -> tuple[int, ...]:
         """The last steps at which the agent was there."""
         return tuple(step for step in self.been.values[place].tolist() if step >= 0)
@@ -119,13 +141,75 @@ class MetricPose(NoPose):
         rows = rows[rows[:, 0] >= 0.0]
         place, action, there = rows[:, :3].astype(np.int64).T
         return self.odometer.weighed(
-            np.stack([place, there], axis=1), rows[:, 4:], rows[:, 3], self.bearings.values[place, action]
+            np.stack([place, there], axis=1), rows[:, 4:7], rows[:, 3], self.bearings.values[place, action]
         )
 
     def imagine(self, place: int, source: int, action: int) -> None:
         """A place was imagined behind a way: it lies in the direction of its bearing."""
         if self.position(source) is not None:
             fill(self.source, place, [source, action])
+
+    # -- measurements --------------------------------------------------------------------------------------
+
+    def note(
+        self, place: int, action: int, there: int | None, move: Floats, *, measured: bool = True, roams: bool = False
+    ) -> None:
+        """Keep what was measured of a way; of one that was walked before its mean, and how far measurements err.
+
+        Of an agent that `roams` every walk is kept, with the heading that it believed to have.
+        """
+        rows = self.walks.values
+        key = np.array([place, action, -1 if there is None else there], dtype=np.float64)
+        known = np.flatnonzero((rows[:, :3] == key).all(axis=1))
+        if len(known) and not roams:
+            at, many = int(known[0]), float(rows[known[0], 3])
+            if many and measured:
+                mean = rows[at, 4:7].copy()
+                self.odometer.learn(move - mean, float(np.square(mean).sum()) * (1.0 + 1.0 / many))
+                fill(self.walks, at, [*key.tolist(), many + 1.0, *(mean + (move - mean) / (many + 1.0)).tolist(), 0.0])
+            return
+        free = np.flatnonzero(rows[:, 0] < 0.0)
+        if len(free) and there is not None:
+            fill(
+                self.walks,
+                int(free[0]),
+                [*key.tolist(), float(measured), *move.tolist(), float(self.heading.values[0])],
+            )
+
+    def apart(self, place: int, at: Floats) -> float:
+        """How far a place lies from a position, in mean lengths of a way."""
+        return float(np.linalg.norm(self.where.values[place] - at)) / self.length
+
+    def loop(self, place: int, there: int, at: Floats, *, roams: bool = False) -> None:
+        """A loop closed: positions relax, if they do not fit; of an agent that `roams` the heading drifts as well."""
+        if self.apart(there, at) <= CLOSED:
+            return
+        measured, size = self.walked(), len(self.where)
+        off = self.where.values[there] - at
+        before = measured.among(~((measured.ends == (place, there)).all(axis=1)))
+        spread = drift(before, place, np.array([there]), size)[0]
+        if np.isfinite(spread):
+            self.odometer.learn(off, float(np.square(spread / self.odometer.rate)))
+        origin = self.context.visits.order.values[0]
+        free = around(measured, np.array([place, there]), MOST, size)
+        free = free[free != origin]
+        if roams:
+            rows = np.flatnonzero(self.walks.values[:, 0] >= 0.0)
+            positions, heading = straightened(self.where.values, measured, self.walks.values[rows, 7], free)
+            for row, turn in zip(rows.tolist(), heading.tolist(), strict=True):
+                self.walks.set((row, 7), turn)
+            self.heading.set(0, float(heading[-1]))
+        else:
+            positions = relaxed(self.where.values, measured, free)
+        for one, position in zip(free.tolist(), positions.tolist(), strict=True):
+            fill(self.where, one, position)
+
+
+def seen_bearings(model: Growing, percept: Percept) -> Floats | None:
+    """`[K]` the bearing of each way as it is seen; -1 where there is none. None where no bearings are sensed."""
+    reading = percept.readings.get("bearings")
+    known = isinstance(reading, int)
+    return np.array(model.sensors["bearings"].label(reading), dtype=np.float64) if known else None
 
 
 def fill(column: Column, row: int, values: Sequence[Any] | NDArray[Any]) -> None:

@@ -11,9 +11,10 @@ from ..base import Floats
 from ..transition import Transition
 from .base import Growing
 from .joining import Joining
-from .metric import RECENT, UNKNOWN, MetricPose, fill
+from .metric import RECENT, UNKNOWN, MetricPose, fill, seen_bearings
 from .recognising import recognised
-from .relaxing import AXES, around, drift, relaxed
+from .relaxing import AXES
+from .roaming import Roaming
 
 NEAR = 0.1
 """A place is the one that was expected if it is so near, in mean lengths of a way, where moves are measured exactly."""
@@ -21,11 +22,9 @@ NEAR = 0.1
 STILL = 1e-3
 """A move that is shorter than this, in mean lengths of a way, was none."""
 
-CLOSED = 1e-3
-"""Mean lengths of a way by which a loop may be open and positions stay as they are."""
 
-MOST = 400
-"""Places that are relaxed at once, those nearest to where the loop closed."""
+TWO = 25.0
+"""Doubt of a way that is so long that there is rather a place on it that nobody has seen."""
 
 
 class Plane(MetricPose):
@@ -48,6 +47,9 @@ class Plane(MetricPose):
         action = percept.action
         if action is None or action == model.motions.stay or self.position(place) is None:
             return
+        if not (self.bearings.values[place] >= 0.0).any():
+            Roaming(self, model, step).arrive(place, percept)
+            return
         ways, entered = model.transitions, model.visits.visited.values
         bearing = float(self.bearings.values[place, action])
         move = self.odometer.moved(percept.displacement, bearing)
@@ -56,12 +58,12 @@ class Plane(MetricPose):
         self.odometer.learn_direction(percept.displacement, bearing)
         target = ways.beyond(place, action)
         if ways.walked.values[place, action]:
-            self._again(place, action, move.raw)
+            self.note(place, action, ways.beyond(place, action), move.raw)
             return
         at = self.where.values[place] + move.moved
         joining = Joining(self, model, step)
         exact = not self.odometer.errs and percept.displacement is not None
-        if exact and target is not None and entered[target] and self._apart(target, at) <= NEAR:
+        if exact and target is not None and entered[target] and self.apart(target, at) <= NEAR:
             there: int | None = target  # as was thought; if it looks otherwise, the agent was put elsewhere
         else:
             there = recognised(self, model, percept, place, at, move)
@@ -73,14 +75,14 @@ class Plane(MetricPose):
         there = target if there is None else there
         assert there is not None
         new = not model.visits.visited.values[there]
-        self._note(place, action, there, move.raw, percept.displacement is not None)
+        self.note(place, action, there, move.raw, measured=percept.displacement is not None)
         if percept.displacement is not None:
             self.odometer.measure(float(np.linalg.norm(move.moved)))
         if new:
             fill(self.where, there, at.tolist())
         else:
             joining.returns(place, action, there)
-            self._close(place, there, at)
+            self.loop(place, there, at)
 
     def look(self, model: Growing, place: int, percept: Percept, *, step: int) -> None:
         """The agent is in a place, as far as it is certain, and sees its ways."""
@@ -111,26 +113,9 @@ class Plane(MetricPose):
             there = int(targets[row, action])
             if not met[row, action] or (row, there) in twins:  # of two that lead there one leads elsewhere
                 apart = np.linalg.norm(self.where.values[there] - self.where.values[places[row]])
-                found.append((int(places[row]), action, max(float(self.odometer.log_length(apart)), 0.0)))
+                doubt = TWO if self.odometer.two(float(apart)) else max(float(self.odometer.log_length(apart)), 0.0)
+                found.append((int(places[row]), action, doubt))
         return found
-
-    # -- measurements --------------------------------------------------------------------------------------
-
-    def _note(self, place: int, action: int, there: int, move: Floats, measured: bool) -> None:
-        """Keep what was measured of a way that was walked for the first time."""
-        free = np.flatnonzero(self.walks.values[:, 0] < 0.0)
-        if len(free):
-            fill(self.walks, int(free[0]), [place, action, there, float(measured), *move.tolist()])
-
-    def _again(self, place: int, action: int, move: Floats) -> None:
-        """A way was walked again: its mean move is known better, and how far measurements err."""
-        rows = np.flatnonzero((self.walks.values[:, 0] == place) & (self.walks.values[:, 1] == action))
-        if not len(rows) or self.walks.values[rows[0], 3] < 1.0:
-            return
-        at = int(rows[0])
-        many, mean = self.walks.values[at, 3], self.walks.values[at, 4:].copy()
-        self.odometer.learn(move - mean, float(np.square(mean).sum()) * (1.0 + 1.0 / many))
-        fill(self.walks, at, [*self.walks.values[at, :3], many + 1.0, *(mean + (move - mean) / (many + 1.0))])
 
     def _stayed(self, model: Growing, place: int, percept: Percept, moved: Floats) -> bool:
         """Whether a move led nowhere; places that look different may have one position."""
@@ -138,30 +123,3 @@ class Plane(MetricPose):
             return False
         seen = seen_bearings(model, percept)
         return seen is None or np.array_equal(seen, self.bearings.values[place])
-
-    def _apart(self, place: int, at: Floats) -> float:
-        """How far a place lies from a position, in mean lengths of a way."""
-        return float(np.linalg.norm(self.where.values[place] - at)) / self.length
-
-    def _close(self, place: int, there: int, at: Floats) -> None:
-        """A loop closed: positions relax, if they do not fit."""
-        if self._apart(there, at) <= CLOSED:
-            return
-        measured, size = self.walked(), len(self.where)
-        off = self.where.values[there] - at
-        before = measured.among(~((measured.ends == (place, there)).all(axis=1)))
-        spread = drift(before, place, np.array([there]), size)[0]
-        if np.isfinite(spread):
-            self.odometer.learn(off, float(np.square(spread / self.odometer.rate)))
-        origin = self.context.visits.order.values[0]
-        free = around(measured, np.array([place, there]), MOST, size)
-        free = free[free != origin]
-        for one, position in zip(free.tolist(), relaxed(self.where.values, measured, free).tolist(), strict=True):
-            fill(self.where, one, position)
-
-
-def seen_bearings(model: Growing, percept: Percept) -> Floats | None:
-    """`[K]` the bearing of each way as it is seen; -1 where there is none. None where no bearings are sensed."""
-    reading = percept.readings.get("bearings")
-    known = isinstance(reading, int)
-    return np.array(model.sensors["bearings"].label(reading), dtype=np.float64) if known else None

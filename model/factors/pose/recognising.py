@@ -12,11 +12,14 @@ from ..sight import Sight
 from .base import Growing
 from .metric import MetricPose
 from .odometer import Move
-from .relaxing import drift
+from .relaxing import drift, path_length
 from .ways_between import ROUGH
 
 BLUR = 0.03
 """Standard deviation of a position that is known for sure, in mean lengths of a way."""
+
+WIDE, DRIFTS = 0.6, 0.05
+"""The same on open ground, and how far one strays there over the length of a walk: the heading drifts."""
 
 TAILS = 4.0
 """Degrees of the Student t that positions follow."""
@@ -34,7 +37,9 @@ FEW = 8
 """Places that are looked at where nothing but their position tells them apart."""
 
 
-def recognised(pose: MetricPose, model: Growing, percept: Percept, left: int, at: Floats, move: Move) -> int | None:
+def recognised(
+    pose: MetricPose, model: Growing, percept: Percept, left: int, at: Floats, move: Move, *, open_ground: bool = False
+) -> int | None:
     """The place entered before that the agent is more probably in than in a new one; None where there is none.
 
     log odds = log P(where it lies | it is there) + log P(sensed | it) - log P(somewhere new) - log P(sensed | new)
@@ -46,11 +51,13 @@ def recognised(pose: MetricPose, model: Growing, percept: Percept, left: int, at
         left: the place that was left.
         at: `[3]` where the move led to, as measured.
         move: what was measured.
+        open_ground: whether places are wide, and entered now here, now there.
     """
     places = _candidates(pose, model, percept, left, at)
     if not len(places):
         return None
-    odds = _lies_there(pose, left, places, at, move)
+    exact = percept.displacement is not None and not pose.odometer.errs and not open_ground
+    odds = _lies_there(pose, left, places, at, move, exact=exact, wide=open_ground)
     likely = odds > -np.inf
     places, odds = places[likely], odds[likely]
     odds += _looks_so(model, places, percept)
@@ -75,21 +82,28 @@ def _candidates(pose: MetricPose, model: Growing, percept: Percept, left: int, a
         found = model.sensors["bearings"].candidates(reading)[0]
         found = found[(pose.bearings.values[found] == seen).all(axis=1)]
     else:
-        found = model.visits.order.values
+        told = [model.sensors[name].candidates(reading) for name, reading in percept.readings.items()]
+        found = min((places for places, _ in filter(None, told)), key=len, default=model.visits.order.values)
         apart = np.linalg.norm(pose.where.values[found] - at, axis=1)
         found = found[np.argsort(apart, kind="stable")[: FEW + 1]]
     return found[found != left]
 
 
-def _lies_there(pose: MetricPose, left: int, places: Ints, at: Floats, move: Move) -> Floats:
+def _lies_there(
+    pose: MetricPose, left: int, places: Ints, at: Floats, move: Move, *, exact: bool, wide: bool
+) -> Floats:
     """`[n]` log of the density of each at this position, over that of places in general."""
     off = (pose.where.values[places] - at) / pose.length
     axes, apart = 3 if off[:, 2].any() else 2, np.linalg.norm(off, axis=1)
-    most = np.hypot(BLUR, pose.odometer.most(move.along) / pose.length)
-    if apart.min() > FAR * most:  # however the agent came here
+    blur = WIDE if wide else BLUR
+    most = blur if exact else np.hypot(blur, pose.odometer.most(move.along) / pose.length)
+    if not wide and apart.min() > FAR * most:  # however the agent came here
         return np.full(len(places), -np.inf)
-    spread = np.full(len(places), BLUR)
-    if apart.min() > BLUR:
+    spread = np.full(len(places), blur)
+    if wide:
+        along = DRIFTS * path_length(pose.walked(), left, places, len(pose.where)) / pose.length
+        spread = np.hypot(blur, along)
+    elif not exact and apart.min() > blur:
         along = drift(pose.walked(), left, places, len(pose.where)) / pose.length
         spread = np.sqrt(spread**2 + np.square(along) + np.square(move.along / pose.length))
     known = np.isfinite(spread)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solveh_banded
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.sparse.linalg import spsolve
@@ -14,6 +15,9 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 AXES = 3
+
+DRIFTING, TURNS = 0.08, 4
+"""Radians that a heading drifts by from one measurement to the next; and how often both are improved in turn."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +90,32 @@ def relaxed(where: Floats, measured: Measured, free: Ints) -> Floats:
     return where[free] + np.asarray(spsolve(matrix.tocsc(), pull.ravel())).reshape(-1, AXES)
 
 
+def straightened(where: Floats, measured: Measured, heading: Floats, free: Ints) -> tuple[Floats, Floats]:
+    """The same of an agent whose heading drifts: positions `[n, 3]`, and how far it was turned `[E]`, in radians.
+
+    Measurements are in the order in which they were made, each in the frame that the agent then took for right.
+    Positions and headings are improved in turn: a heading is a random walk from zero, seen from where places lie.
+
+    Args:
+        where, measured, free: as for `relaxed`.
+        heading: `[E]` what was thought of the headings so far.
+    """
+    found, heading = where.copy(), heading.copy()
+    raw = measured.moved[:, 0] + 1j * measured.moved[:, 1]
+    ends = measured.ends
+    seen = np.square(np.abs(raw) / measured.across)  # of an angle, its precision
+    steps = np.full(len(raw), 1.0 / DRIFTING**2)
+    bands = np.zeros((2, len(raw)))
+    bands[0, 1:], bands[1] = -steps[1:], seen + steps + np.append(steps[1:], 0.0)
+    for _ in range(TURNS):
+        turned = raw * np.exp(1j * heading)
+        moved = np.stack([turned.real, turned.imag, measured.moved[:, 2]], axis=1)
+        found[free] = relaxed(found, Measured(ends, moved, measured.along, measured.across), free)
+        across = (found[ends[:, 1]] - found[ends[:, 0]]) @ np.array([1.0, 1j, 0.0])
+        heading = solveh_banded(bands, seen * (heading + np.angle(across * np.conj(turned))))
+    return found[free], heading
+
+
 def drift(measured: Measured, source: int, places: Ints, size: int) -> Floats:
     """`[n]` standard deviation, along each axis, of where places lie from `source`: at most what the best way has.
 
@@ -95,6 +125,13 @@ def drift(measured: Measured, source: int, places: Ints, size: int) -> Floats:
     variance = np.square(measured.along)
     graph = csr_array((variance, (first, second)), shape=(size, size))
     return np.sqrt(dijkstra(graph, directed=False, indices=source)[places])
+
+
+def path_length(measured: Measured, source: int, places: Ints, size: int) -> Floats:
+    """`[n]` how long the shortest way from `source` along measured ones is; infinite where none leads."""
+    first, second = measured.ends.T
+    graph = csr_array((np.linalg.norm(measured.moved, axis=1), (first, second)), shape=(size, size))
+    return dijkstra(graph, directed=False, indices=source)[places]
 
 
 def around(measured: Measured, ends: Ints, most: int, size: int) -> Ints:
