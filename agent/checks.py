@@ -72,7 +72,9 @@ def check_recognition(
     whole = all(isinstance(number, int) and not isinstance(number, bool) for number in numbers)
     if not whole or not isinstance(moved, bool) or not all(place in map_.places for place in places.values()):
         raise CogmapError("which place is which is told by what are no places of the map")
-    if followed is not None and not (0 <= followed < len(hypotheses) and hypotheses[followed].here in places):
+    if followed is not None and not (
+        0 <= followed < len(hypotheses) and hypotheses[followed].here in {*places, *missed}
+    ):
         raise CogmapError("the map follows a hypothesis that there is not")
 
 

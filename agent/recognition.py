@@ -45,7 +45,7 @@ DECIDED = 0.8
 SURER = 0.98
 """Share of what hypotheses hold of a place from which on the filter need not be overruled."""
 
-RULED_OUT, UNSEEN = 0.1, 0.3
+RULED_OUT, UNSEEN = 0.01, 0.3
 """Odds beside the most probable hypothesis down to which the one that is followed may be followed on; and where no way
 was looked at: the filter, which names the one to follow, cannot tell there a bump from a place that looks the same."""
 
