@@ -72,9 +72,8 @@ def check_recognition(
     whole = all(isinstance(number, int) and not isinstance(number, bool) for number in numbers)
     if not whole or not isinstance(moved, bool) or not all(place in map_.places for place in places.values()):
         raise CogmapError("which place is which is told by what are no places of the map")
-    if followed is not None and not (
-        0 <= followed < len(hypotheses) and hypotheses[followed].here in {*places, *missed}
-    ):
+    known = {*places, *missed}  # of a place that was missed the map has not been told yet
+    if followed is not None and not (0 <= followed < len(hypotheses) and hypotheses[followed].here in known):
         raise CogmapError("the map follows a hypothesis that there is not")
 
 

@@ -87,18 +87,15 @@ class Filed(Whole):
         header: Mapping[str, Any],
         arrays: Mapping[str, NDArray[Any]],
         *,
-        sensors: Iterable[Sensor] | None = None,
-        pose: Pose | None = None,
-        growth: Growth | None = None,
-        planner: Planner | None = None,
         settings: Settings | None = None,
+        **parts: Any,
     ) -> Self:
         """The agent that `state` took apart; see `load`."""
         turning = header.get("turning", {})
         if turning.get("turn") or turning.get("sought"):
             raise MissingPart("load: the file is of an agent whose frame has turned; use TurningAgent.load")
         agent = cls.__new__(cls)
-        made = made_of(header["parts"], sensors=sensors, pose=pose, growth=growth, planner=planner)
+        made = made_of(header["parts"], **parts)
         motions = _motions(header["motions"])
         saved = Settings.from_dict(header["settings"])
         agent._assemble(motions, *made, settings or saved, None)

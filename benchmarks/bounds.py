@@ -175,7 +175,7 @@ def rooms(folder: Path, asked: argparse.Namespace) -> list[Row]:
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, used = os.wait4(process.pid, 0)
     row = {"what": f"{side * side:,} rooms", "s": time.monotonic() - begun, "mb": used.ru_maxrss / 1024}
-    return [{**row, "ended": status == 0 and (folder / "out.json").exists()}]
+    return [{**row, "ended": os.waitstatus_to_exitcode(status) in (0, 1) and (folder / "out.json").exists()}]
 
 
 PARTS = {"bombs": bombs, "kills": kills, "rooms": rooms}

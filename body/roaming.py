@@ -189,7 +189,9 @@ class RoamingBody(MiniGridBody):
         if self._carried is not None and words.key[self._carried] < 0:
             return self._put_down()
         plan = self._to_errand() or self._through_unlocked()
-        return self._to_doors() if not plan and (self._idle or self._errand is not None) else plan
+        if not plan and (self._idle or self._errand is not None):
+            plan = self._to_doors()
+        return self._to_hidden() if not plan and self._idle else plan
 
     def _through_unlocked(self) -> list[int] | None:
         """Through the door that it has just unlocked: nobody else knows that it is open."""
@@ -232,6 +234,19 @@ class RoamingBody(MiniGridBody):
             if plan is not None:
                 return plan
         return None
+
+    def _to_hidden(self) -> list[int] | None:
+        """To a thing behind which there is floor that cannot be reached, or that was not seen."""
+        known, masks = self._known, self._known.masks()
+        free, things = set(_tiles(masks.free | masks.shut)), set(_tiles(vocabulary().thing[known.tile]))
+        things -= self._lifted
+        reached = {(x, y) for x, y, _ in distances(self.pose, known, free)}
+        beside = {other for tile in reached for _, other in around(tile)}
+        behind = {tile for tile in things & beside if any(not known.known(other) for _, other in around(tile))}
+        cut_off = {tile for tile in free - reached if known.free(tile)}
+        goals = behind | cut_off
+        plan = route(self.pose, known, goals, within=free, lift=things) if things and goals else None
+        return self._lifting(plan) if plan is not None and PICKUP in plan else None
 
     def _towards(self, wanted: NDArray[np.bool_], *, upon: bool, lift: bool = False) -> list[int] | None:
         """The way to the nearest tile of some kinds: upon it, or before it and looking at it; None if there is none."""

@@ -80,6 +80,11 @@ class Parts:
     def __post_init__(self) -> None:
         if self.agent not in AGENTS:
             raise CogmapError(f"no agent is called {self.agent!r}; choose one of {', '.join(AGENTS)}")
+        if self.pose == "turning":
+            raise CogmapError(
+                "settings: pose is 'turning', but the moves of this world are told as they are, however the agent is "
+                "turned; use --pose lattice, or a body that may be turned: minigrid:MAZE with --turned"
+            )
         for name, known in (
             ("growth", GROWTHS),
             ("policies", POLICIES),

@@ -311,3 +311,13 @@ def test_recognitions_that_no_agent_has(field: str, value: Any, saved: Path, tmp
     header, arrays = unpacked(saved)
     header["recognition"][field] = value
     assert "is damaged" in refusal(packed(tmp_path / "map.npz", header, arrays))
+
+
+def test_a_place_that_the_map_was_not_told_of_yet_is_no_damage(saved: Path, tmp_path: Path) -> None:
+    header, arrays = unpacked(saved)
+    here, known = Agent.load(saved)._recognition.tracker.best.here, header["recognition"]["places"]
+    header["recognition"]["places"] = [pair for pair in known if pair[0] != here]
+    assert "follows a hypothesis that there is not" in refusal(packed(tmp_path / "map.npz", header, arrays))
+    header["recognition"]["missed"] = [here]
+    loaded = Agent.load(packed(tmp_path / "map.npz", header, arrays))
+    loaded.step({"sight": 0, "open": [True] * 5})

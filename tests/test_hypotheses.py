@@ -16,6 +16,7 @@ from cogmap.inference.hypotheses.pruning import alike
 from cogmap.inference.hypotheses.rates import (
     ASTRAY,
     BLAMED,
+    ELSEWHERE,
     FAILS,
     MOVED,
     RATE_PRIORS,
@@ -25,6 +26,7 @@ from cogmap.inference.hypotheses.rates import (
     crp_evidence,
     crp_predictive,
 )
+from cogmap.inference.hypotheses.recharting import recharted
 from cogmap.inference.hypotheses.squares import across, tally
 from cogmap.inference.hypotheses.straightening import straightened
 from cogmap.inference.hypotheses.weighing import door_evidence
@@ -319,6 +321,24 @@ def test_a_link_off_the_chart_that_the_other_side_denies_was_a_silent_move():
     assert straight.counts.yes[MOVED] == h.counts.yes[MOVED] + 1.0
     assert straightened(h, here, floor=h.weight + 100.0) is None
     assert all(straightened(tracker.best, number, floor=-1e9) is None for number in tracker.best.places)
+
+
+def test_a_loop_that_does_not_close_on_the_chart_may_have_been_a_silent_move():
+    """Moved from the lower right corner into the upper one: the chart has the rooms from there on too low."""
+    world, tracker = Grid([[0, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11]]), Tracker(LATTICE)
+    walk(tracker, world, "DDDRR")
+    world.at = (1, 2)
+    walk(tracker, world, "ULL")  # up to (0, 2), which the chart has above the corner
+    h = next(h for h in tracker.hypotheses if h.places[h.here].label() == 0 and h.counts.yes[ELSEWHERE])
+    assert h.places[h.here].position == (0, 0)
+    odd = next(source for source, way in h.places[h.here].into if way == 2)
+    maps = list(recharted(h, odd, floor=-1e9))
+    assert maps
+    right = [other for other in maps if {k: other.places[k].position for k in (6, 7)} == {6: (0, 2), 7: (0, 1)}]
+    cut = [other for other in right if other.counts.yes[MOVED] == h.counts.yes[MOVED] + 1.0]
+    assert any(other.places[5].ways[0].to == NOWHERE and other.counts.yes[ELSEWHERE] == 0.0 for other in cut)
+    assert not list(recharted(h, odd, floor=h.weight + 100.0))
+    assert all(other.weight > h.weight - 12.0 for other in cut)
 
 
 def test_three_sides_of_a_square_say_where_its_fourth_leads_as_often_as_they_did():

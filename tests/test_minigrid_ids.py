@@ -48,6 +48,13 @@ def test_keys_open_what_stands_in_the_way(name: str, most: int) -> None:
     assert run.low_level_steps < most
 
 
+@pytest.mark.parametrize(("name", "seed"), [("MiniGrid-DoorKey-6x6-v0", 48), ("MiniGrid-BlockedUnlockPickup-v0", 66)])
+def test_what_hides_the_way_is_taken_up(name: str, seed: int) -> None:
+    run = run_id(name, seed, errand=True)  # the key lies beside it, in a room one tile wide; a ball hides the door
+    assert run.reached
+    assert run.low_level_steps < 60
+
+
 def test_every_room_is_entered_the_locked_one_too() -> None:
     world = RegisteredWorld("MiniGrid-KeyCorridorS6R3-v0")
     inside, act = set[tuple[int, int]](), world.env.step

@@ -65,7 +65,7 @@ class MetricPose(NoPose):
         self.heading = Column("heading", np.float64, changes=log)
         self.heading.resize(1)
         self.odometer = Odometer(log)
-        self.led: tuple[Percept, int] | None = None
+        self.led: tuple[Percept, int, float] | None = None
 
     @property
     def stores(self) -> tuple[Store, ...]:
@@ -126,10 +126,11 @@ class MetricPose(NoPose):
         return np.where(where[:, 0] < UNKNOWN, apart, 1.0)
 
     def leading(self, ahead: Successors, percept: Percept) -> Successors:
-        """The place that `arrive` found, where it found one, is more probable than others by `TOLD`."""
+        """The place that `arrive` found, where it found one, is more probable than others, by `TOLD`."""
         if self.led is None or self.led[0] is not percept:
             return ahead
-        return replace(ahead, coupling=ahead.coupling * np.where(ahead.places == self.led[1], 1.0, TOLD))
+        _, there, factor = self.led
+        return replace(ahead, coupling=ahead.coupling * np.where(ahead.places == there, factor, TOLD))
 
     def steps_in(self, place: int) -> tuple[int, ...]:
         """The last steps at which the agent was there."""

@@ -12,12 +12,12 @@ from ..transition import Transition
 from .base import Growing
 from .joining import Joining
 from .metric import RECENT, UNKNOWN, MetricPose, fill, seen_bearings
-from .recognising import recognised
+from .recognising import NEAR, recognised
 from .relaxing import AXES
 from .roaming import Roaming
 
-NEAR = 0.1
-"""A place is the one that was expected if it is so near, in mean lengths of a way, where moves are measured exactly."""
+LEAST = 1e-6
+"""P(ways as sensed) of a new place, at least, where it is taken out again."""
 
 STILL = 1e-3
 """A move that is shorter than this, in mean lengths of a way, was none."""
@@ -78,6 +78,7 @@ class Plane(MetricPose):
         self.note(place, action, there, move.raw, measured=percept.displacement is not None)
         if percept.displacement is not None:
             self.odometer.measure(float(np.linalg.norm(move.moved)))
+        self.led = percept, there, self._told_twice(model, there, percept) if new else 1.0
         if new:
             fill(self.where, there, at.tolist())
         else:
@@ -116,6 +117,12 @@ class Plane(MetricPose):
                 doubt = TWO if self.odometer.two(float(apart)) else max(float(self.odometer.log_length(apart)), 0.0)
                 found.append((int(places[row]), action, doubt))
         return found
+
+    def _told_twice(self, model: Growing, place: int, percept: Percept) -> float:
+        """One over P(ways as sensed | place): bearings that are seen tell already which ways there are."""
+        if percept.open is None or "bearings" not in percept.readings:
+            return 1.0
+        return 1.0 / max(float(model.sensors["open"].likelihood(np.array([place]), percept.open)[0]), LEAST)
 
     def _stayed(self, model: Growing, place: int, percept: Percept, moved: Floats) -> bool:
         """Whether a move led nowhere; places that look different may have one position."""

@@ -18,6 +18,9 @@ from .ways_between import ROUGH
 BLUR = 0.03
 """Standard deviation of a position that is known for sure, in mean lengths of a way."""
 
+NEAR = 0.1
+"""Mean lengths of a way within which a place lies where moves are measured exactly."""
+
 WIDE, DRIFTS = 0.6, 0.05
 """The same on open ground, and how far one strays there over the length of a walk: the heading drifts."""
 
@@ -95,6 +98,8 @@ def _lies_there(
     """`[n]` log of the density of each at this position, over that of places in general."""
     off = (pose.where.values[places] - at) / pose.length
     axes, apart = 3 if off[:, 2].any() else 2, np.linalg.norm(off, axis=1)
+    if exact and apart.min() > NEAR:
+        return np.full(len(places), -np.inf)
     blur = WIDE if wide else BLUR
     most = blur if exact else np.hypot(blur, pose.odometer.most(move.along) / pose.length)
     if not wide and apart.min() > FAR * most:  # however the agent came here
@@ -110,7 +115,7 @@ def _lies_there(
     spread = np.where(known, spread, 1e6)
     far = np.square(off / spread[:, None]).sum(axis=1)
     log = -axes * np.log(spread * np.sqrt(2.0 * np.pi)) - (TAILS + axes) / 2.0 * np.log1p(far / TAILS)
-    return np.where(known & (apart <= FAR * spread), log, -np.inf)
+    return np.where(known & (apart <= (NEAR if exact else FAR * spread)), log, -np.inf)
 
 
 def _looks_so(model: Growing, places: Ints, percept: Percept) -> Floats:

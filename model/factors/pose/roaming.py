@@ -45,7 +45,7 @@ class Roaming:
             pose.note(left, action, there, raw, roams=True)
             pose.loop(left, there, at, roams=True)
         self._model.transitions.may_lead(left, action, there)
-        pose.led = percept, there
+        pose.led = percept, there, 1.0
 
     def _turned(self, displacement: tuple[float, ...]) -> list[float]:
         c, s = np.cos(self._pose.heading.values[0]), np.sin(self._pose.heading.values[0])
