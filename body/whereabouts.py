@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from ..worlds import minigrid as mg
 from .eyes import View
-from .room_map import Pose, RoomMap
+from .room_map import SIDE, Pose, RoomMap
 
 LEFT, RIGHT, FORWARD, PICKUP, DROP, TOGGLE, NOTHING = range(7)
 """MiniGrid's actions."""
@@ -92,6 +92,7 @@ def moved(pose: Pose, action: int, known: RoomMap) -> Pose:
         return x, y, (heading + 1) % 4
     if action == FORWARD:
         ahead = (x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1])
-        if known.free(ahead) or not known.known(ahead):
+        inside = 0 < ahead[0] < SIDE - 1 and 0 < ahead[1] < SIDE - 1
+        if inside and (known.free(ahead) or not known.known(ahead)):
             return (*ahead, heading)
     return pose
