@@ -45,8 +45,9 @@ DECIDED = 0.8
 SURER = 0.98
 """Share of what hypotheses hold of a place from which on the filter need not be overruled."""
 
-RULED_OUT = 0.01
-"""Odds beside the most probable hypothesis down to which the one that is followed may be followed on."""
+RULED_OUT, UNSEEN = 0.01, 0.3
+"""Odds beside the most probable hypothesis down to which the one that is followed may be followed on; and where no way
+was looked at: the filter, which names the one to follow, cannot tell there a bump from a place that looks the same."""
 
 
 class Recognition:
@@ -102,7 +103,8 @@ class Recognition:
 
     def _may_go_on(self, h: Hypothesis, best: Hypothesis) -> bool:
         """Whether a hypothesis is followed on: the best one is not decided, nor is this one as good as ruled out."""
-        return h is best or (exp(best.weight) < DECIDED and exp(h.weight - best.weight) > RULED_OUT)
+        least = UNSEEN if self._looked is None else RULED_OUT
+        return h is best or (exp(best.weight) < DECIDED and exp(h.weight - best.weight) > least)
 
     def _goes_on(self, h: Hypothesis, place: int) -> bool:
         if h.origin is not self.followed or self.mirror.missed:

@@ -66,9 +66,14 @@ class OpenQuestion:
 
     def _leads(self, h: int, number: int, action: int) -> int | None:
         (found, _), way = self._kept[h], self._ways.get(action)
-        if way is None or way not in found.awake or not self._open(h, number, way):
+        if way is None or way not in found.awake:
             return number
-        to = found.neighbour(found.places[number], way)
+        record = found.places[number]
+        to = found.neighbour(record, way)
+        if to == NOWHERE and not record.ways[way].net:
+            return None  # nobody knows yet whether it leads anywhere
+        if not self._open(h, number, way):
+            return number
         return None if to == NOWHERE else to
 
     def _open(self, h: int, number: int, way: int) -> bool:

@@ -128,8 +128,13 @@ def test_without_positions_squares_spare_a_walk_along_every_way(name: str, steps
 def test_ways_that_no_sensor_tells_of_are_tried(pose: NoPose | None, name: str, steps: int) -> None:
     world = UnseenWays(load_world(name))
     agent = Agent(world.unwrapped.motions, sensors=[Sight("sight")], pose=pose, settings=Settings(look_ahead=4), seed=0)
-    verdict = walked(world, agent, steps).verdict(agent, world.unwrapped.chart)
+    trail = walked(world, agent, steps)
+    verdict = trail.verdict(agent, world.unwrapped.chart)
     assert (verdict.map_right, verdict.places, verdict.known) == (True, 9, 1.0)
+    actions = [record.action for record in agent.trace[: steps - 4]]
+    tried = list(zip(trail.rooms, actions, trail.rooms[1:], strict=False))
+    bumped = [(room, action) for room, action, after in tried if room == after]
+    assert len(bumped) <= len(set(bumped)) + 1  # a wall is not taken for a room that looks the same, again and again
 
 
 def test_the_map_holds_ways_that_lead_one_way_only() -> None:

@@ -235,6 +235,16 @@ def test_misread_sights_and_doors_invent_no_places():
     assert tracker.best.counts.mean(2) == pytest.approx(0.1, abs=0.04)
 
 
+def test_a_way_that_was_never_looked_at_and_leads_nowhere_is_a_wall():
+    """Bumping into a wall, and into twins of the room for ever, look the same; a circle of one twin is the wall."""
+    tracker = Tracker(WayScheme(2, (1, 0)))
+    for action in (None, 0, 0, 0, 1, 0, 1):
+        tracker.step(Sensed((0,), (None, None), action), [1])
+    assert (tracker.best.size, tracker.best.counts.of(FAILS)[0]) == (1, pytest.approx(0.0, abs=0.1))
+    for h in tracker.hypotheses:
+        assert not any(way.to == number for number in h.places for way in h.places[number].ways)
+
+
 def test_hypotheses_that_say_the_same_are_found_alike():
     tracker = Tracker(LATTICE)
     walk(tracker, Grid([[0, 1], [2, 3]]), "RDLU")

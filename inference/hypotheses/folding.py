@@ -14,6 +14,9 @@ from .weighing import Links, scored
 MORE = 12.0
 """Nats that what is scored last may gain at most: fewer places, fewer ways."""
 
+OUT_OF_THE_QUESTION = -1000.0
+"""Nats that a folding gains which says in other words what is held already."""
+
 
 def pairs(h: Hypothesis, *, most: int = 12) -> Iterator[tuple[int, int, bool]]:
     """The place where the agent is with each that looks like it: (one, other, whether their chart closes on itself).
@@ -49,10 +52,21 @@ def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) ->
         united.unite(one, other, period=period)
     except ContradictionError:
         return united.gain + MORE
+    if _leads_nowhere(united):
+        return OUT_OF_THE_QUESTION
     gain, links = scored(united)
     if h.weight + gain < floor:
         return gain
     return _built(united, h.weight + gain, links)
+
+
+def _leads_nowhere(united: Union) -> bool:
+    """Whether a way that was never looked at would lead back to where it began: that it is shut says the same."""
+    return any(
+        way.to != NOWHERE and not (way.open or way.blocked) and united.find(way.to) == number
+        for number, place in united.classes.items()
+        for way in place.ways
+    )
 
 
 def _built(united: Union, weight: float, more: Links) -> Hypothesis:
