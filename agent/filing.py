@@ -106,6 +106,7 @@ class Filed(Whole):
         recognition = agent._recognition
         if "recognition" in header:
             recognition.restore(header["recognition"], arrays)
+            recognition.looked = None if agent._state.percept is None else agent._state.percept.open
         if not agent._recognising:
             recognition.forget()
         elif recognition.followed is None and agent._state.belief is not None:

@@ -59,6 +59,7 @@ class Recognition:
         mirror: the places of the followed one in the map.
         followed: the one that the map says; None before the first step.
         moved: whether it has the agent moved by someone else in the last step.
+        looked: what the last percept said of the ways.
     """
 
     def __init__(self, map_: CognitiveMap, growth: Growth, options: TrackerOptions | None) -> None:
@@ -68,7 +69,7 @@ class Recognition:
         self.mirror = Mirror(map_, growth, self.sensing.actions)
         self.followed: Hypothesis | None = None
         self.moved = False
-        self._looked: tuple[bool | float | None, ...] | None = None
+        self.looked: tuple[bool | float | None, ...] | None = None
 
     @property
     def rates(self) -> list[RateOf]:
@@ -83,7 +84,7 @@ class Recognition:
     def take_in(self, percept: Percept) -> None:
         """Weigh the hypotheses by what a step brought; the map stays as it is."""
         sensed = self.sensing.sensed(percept, place=self.mirror.places.get)
-        self._looked = percept.open
+        self.looked = percept.open
         self.tracker.step(sensed, self.sensing.labels())
 
     def choose(self, belief: Belief) -> bool:
@@ -103,7 +104,7 @@ class Recognition:
 
     def _may_go_on(self, h: Hypothesis, best: Hypothesis) -> bool:
         """Whether a hypothesis is followed on: the best one is not decided, nor is this one as good as ruled out."""
-        least = UNSEEN if self._looked is None else RULED_OUT
+        least = UNSEEN if self.looked is None else RULED_OUT
         return h is best or (exp(best.weight) < DECIDED and exp(h.weight - best.weight) > least)
 
     def _goes_on(self, h: Hypothesis, place: int) -> bool:
@@ -134,7 +135,7 @@ class Recognition:
 
         Where ways are hardly ever misread the last look says it: a door that closes is not taken for a wrong reading.
         """
-        looked = () if ways_misread(self._now) > HARDLY else self._looked or ()
+        looked = () if ways_misread(self._now) > HARDLY else self.looked or ()
         if looked and all(look in (0, 1) for look in looked):
             return tuple(map(bool, looked))
         doors = self.mirror.doors(self._now, self._now.here)
@@ -171,7 +172,7 @@ class Recognition:
         misread = ways_misread(now) > HARDLY
         if len(hypotheses) < 2 and not misread:
             return None
-        tries = all(look is None for look in self._looked or ()) and _tried(now)
+        tries = all(look is None for look in self.looked or ()) and _tried(now)
         return OpenQuestion(hypotheses, self.sensing.ways, doors_of=now if misread else None, tries=tries)
 
     def asked(self, graph: FactorGraph, *, step: int) -> FactorGraph:
@@ -233,11 +234,11 @@ class Recognition:
 
     def savepoint(self) -> tuple[Any, ...]:
         """What `go_back` needs to undo the next step."""
-        return self.tracker, self.tracker.checkpoint(), self.followed, self.moved, self.mirror.savepoint()
+        return self.tracker, self.tracker.checkpoint(), self.followed, self.moved, self.looked, self.mirror.savepoint()
 
     def go_back(self, point: tuple[Any, ...]) -> None:
         """Be as it was before that step, wherever it was broken off."""
-        self.tracker, checkpoint, self.followed, self.moved, mirror = point
+        self.tracker, checkpoint, self.followed, self.moved, self.looked, mirror = point
         self.tracker.rollback(checkpoint)
         self.mirror.go_back(mirror)
 

@@ -119,7 +119,7 @@ def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: 
     worth, low = _worth(session, known.trail), Meter.of(session.world).explored()
     beside = measured(chart_of(world), session.start, done.truth, known.visit_all)
     return Walk(
-        ExploreRun(seed, session.start, *figures, left_out, *worth, *low, *beside, _cost(session.agent)),
+        ExploreRun(seed, session.start, *figures, left_out, *worth, *low, *beside, cost=_cost(session.agent)),
         done.truth,
         session.agent,
         session.truth,

@@ -14,7 +14,7 @@ from cogmap.experiments.running import Moment
 from cogmap.inference import TrackerOptions, infer
 from cogmap.inference.hypotheses import Sensed, Tracker, WayScheme
 from cogmap.model import CogmapError, NoPose, Sight
-from cogmap.worlds import MazeEnv, NoisyWorld, UnseenWays, comb, load_world, place_of, ring, torus
+from cogmap.worlds import MazeEnv, NoisyWorld, UnseenWays, comb, hall, load_world, place_of, ring, torus
 
 
 def walked(world: Any, agent: Agent, steps: int, *, seed: int = 0, moves: dict[int, Any] | None = None) -> Trail:
@@ -48,6 +48,28 @@ def test_a_torus_is_found_to_close_on_itself(seed: int) -> None:
     exact(agent, trail, world)
     assert agent.certain
     assert all(agent.map.position(place) is not None for place in agent.map.places)
+
+
+def test_rooms_along_a_wall_are_not_moves_that_failed() -> None:
+    world = MazeEnv(hall(6, 8, sights=3, rng=np.random.default_rng(0)))
+    agent = Agent(world.motions, seed=0)
+    trail = walked(world, agent, 32)
+    assert len(set(trail.rooms)) == int(agent.map.visited.sum())
+    rates = {rate.name: rate.mean for rate in agent.learned_rates}
+    assert rates["alike"] > 0.4
+    assert rates["fails"] < 0.02
+
+
+def test_a_loaded_agent_that_tells_hypotheses_apart_has_the_plan_that_was_saved(tmp_path: Path) -> None:
+    world = load_world("3x3_alias")
+    agent = Agent(world.motions, seed=0)
+    walked(world, agent, 11)
+    agent.save(tmp_path / "map.npz")
+    plan, loaded = agent.plan, Agent.load(tmp_path / "map.npz").plan
+    assert plan.model.structure is not None
+    assert loaded.policies.tolist() == plan.policies.tolist()
+    assert np.allclose(loaded.expected_free_energy.G, plan.expected_free_energy.G)
+    assert loaded.action == plan.action
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from math import log
 
 from .rates import (
+    ALIKE,
     ASTRAY,
     BESIDE,
     CHANGED,
@@ -43,10 +44,11 @@ class Chances:
         pairs: P(two sides are one door), by what was read of each, as far as it was worked out.
         rebuilt: P(all ways of a place are others than they were), which is what one of them has.
         doors: what so many readings of the other side of a door add, as far as it was worked out.
-        fails, astray, moved, elsewhere, undone, new, relinked, square: as the rates are called.
+        fails, astray, moved, elsewhere, undone, new, relinked, square, alike: as the rates are called.
     """
 
     __slots__ = (
+        "alike",
         "astray",
         "beside",
         "doors",
@@ -86,7 +88,7 @@ class Chances:
         self.most = self.limit / self.unit
         self.fails, self.astray, self.moved = mean(FAILS), mean(ASTRAY), mean(MOVED)
         self.elsewhere, self.undone, self.new = mean(ELSEWHERE), mean(UNDONE), mean(NEW)
-        self.relinked, self.square = mean(RELINKED), mean(SQUARE)
+        self.relinked, self.square, self.alike = mean(RELINKED), mean(SQUARE), mean(ALIKE)
         error = min(max(mean(SIGHT_MISREAD), SUREST), MOST_MISREAD)
         self.doors: dict[float, float] = {}
         self.pairs: dict[tuple[float, float], float] = {}

@@ -7,7 +7,7 @@ from math import exp, log
 
 from .chances import Chances
 from .hypothesis import Hypothesis, Key
-from .rates import crp_predictive
+from .rates import ALIKE, crp_predictive
 from .records import NOWHERE, Place, SightCounts
 from .scheme import Reading, Sensed
 
@@ -208,10 +208,35 @@ def _expected_open(h: Hypothesis, key: Key | None, way: int, back: int | None, s
     chances = h.chances
     if way == back:
         return chances.undone + (1.0 - chances.undone) * h.open(way)
-    if key is None or h.scheme.displacements is None or h.scheme.inverse is None:
+    other = None if key is None else _known_beyond(h, key, way)
+    if other is not None and h.scheme.inverse is not None:
+        return probability(chances.beside + other_side(h, other, h.scheme.inverse[way], NOWHERE))
+    if source == NOWHERE:
         return h.open(way)
+    return chances.alike * _as_before(h, source, way) + (1.0 - chances.alike) * h.open(way)
+
+
+def _known_beyond(h: Hypothesis, key: Key, way: int) -> int | None:
+    """The known place beyond a way of a place never seen; None where none is known."""
+    if h.scheme.displacements is None or h.scheme.inverse is None:
+        return None
     position = tuple(x + d for x, d in zip(key[1], h.scheme.displacements[way], strict=True))
-    other = h.at.get(h.canonical(key[0], position))
-    if other is None:
-        return h.open(way)
-    return probability(chances.beside + other_side(h, other, h.scheme.inverse[way], NOWHERE))
+    return h.at.get(h.canonical(key[0], position))
+
+
+def _as_before(h: Hypothesis, source: int, way: int) -> float:
+    """P(open) of the same way of the place that one comes from: corridors and walls go on."""
+    return probability(way_odds(h, source, h.places[source], way))
+
+
+def count_alike(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> None:
+    """What the ways of a place never seen say of how often they are as those of the place it was entered from."""
+    chances, counts = h.chances, h.counts
+    for way, reading in enumerate(sensed.ways):
+        if reading is None or way == back or (key is not None and _known_beyond(h, key, way) is not None):
+            continue
+        before = chances.alike * reading_probability(chances, _as_before(h, source, way), reading)
+        any_ = (1.0 - chances.alike) * reading_probability(chances, h.open(way), reading)
+        share = before / (before + any_)
+        counts.yes[ALIKE] += share
+        counts.no[ALIKE] += 1.0 - share

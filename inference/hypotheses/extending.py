@@ -8,7 +8,7 @@ from math import log
 
 from .branches import Alternative
 from .chances import Chances
-from .evidence import label_shares, odds_beyond, probability, same_door, was_rebuilt, way_odds
+from .evidence import count_alike, label_shares, odds_beyond, probability, same_door, was_rebuilt, way_odds
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, CHANGED, ELSEWHERE, FAILS, MEETING, MOVED, NEW, RELINKED, SQUARE, UNDONE
 from .records import NOWHERE, RECENT, Place, Share, SightCounts, Way
@@ -44,6 +44,9 @@ def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> Non
         key = h.beyond(h.places[here], branch.way) if branch.charted else None
         frame, position = key or (time, h.scheme.origin)
         h.apart = h.apart or not branch.charted
+        if branch.way != NOWHERE:
+            back = None if h.scheme.inverse is None else h.scheme.inverse[branch.way]
+            count_alike(h, sensed, key, back, here)
         _place_new(h, to, frame=frame, position=position)
     if branch.way != NOWHERE:
         _walk(h, here, branch.way, to, branch)

@@ -83,11 +83,12 @@ RATE_PRIORS = (
     ),
     _beta("meeting", 0.5, 9.5, "one action leads from two places into one (where it is not known what undoes what)"),
     _beta("square", 0.5, 0.5, "two actions lead to the same place in either order (without poses)"),
+    _beta("alike", 0.5, 1.5, "a way of a place never seen is as that of the place it was entered from"),
 )
 """Every rate, in the order of `RateCounts`; behind them stand two rows of other counts."""
 
 OPEN, SIGHT_MISREAD, WAY_MISREAD, FAILS, ASTRAY, MOVED, ELSEWHERE = range(7)
-UNDONE, CHANGED, BESIDE, NEW, RELINKED, MEETING, SQUARE = range(7, len(RATE_PRIORS))
+UNDONE, CHANGED, BESIDE, NEW, RELINKED, MEETING, SQUARE, ALIKE = range(7, len(RATE_PRIORS))
 
 STAYED, BLAMED = len(RATE_PRIORS), len(RATE_PRIORS) + 1
 """Moves through open ways that did not lead on (and, as `no`, the share of other actions that would not have either,
