@@ -126,8 +126,7 @@ def _displacement(measured: Any, model: GenerativeModel) -> tuple[float, ...]:
 
 def _number(name: str, least: float) -> Callable[[Any, GenerativeModel], float]:
     def number(value: Any, model: GenerativeModel) -> float:
-        real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-        if not (real and value is not np.ma.masked and isfinite(value) and value >= least):
+        if not (_is_real(value) and value >= least):
             bound = "" if least < 0.0 else f" of {least:g} or more"
             raise CogmapError(f"observation: {name!r} is {_short(value)}; give a finite number{bound}")
         return float(value)
@@ -135,18 +134,27 @@ def _number(name: str, least: float) -> Callable[[Any, GenerativeModel], float]:
     return number
 
 
+def _is_real(value: Any) -> bool:
+    """Whether a value is a finite number, and no truth value."""
+    real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
+    return real and value is not np.ma.masked and isfinite(value)
+
+
 def _costs(value: Any, model: GenerativeModel) -> tuple[float | None, ...]:
     names = model.motions.names
-    given = [value.get(name) for name in names] if isinstance(value, Mapping) else value
-    try:
-        costs = [None if each is None or each is np.ma.masked else float(each) for each in given]
-    except (TypeError, ValueError):
-        costs = []
-    if len(costs) != len(names) or not all(cost is None or (isfinite(cost) and cost >= 0.0) for cost in costs):
+    if isinstance(value, Mapping):
+        if unknown := [name for name in value if name not in names]:
+            raise CogmapError(
+                f"observation: 'costs' has {_short(unknown[0])}; give costs of actions by name: {', '.join(names)}"
+            )
+        value = [value.get(name) for name in names]
+    given = list(value) if isinstance(value, list | tuple | np.ndarray) else []
+    costs = [None if each is None or each is np.ma.masked else each for each in given]
+    if len(costs) != len(names) or not all(cost is None or (_is_real(cost) and cost >= 0.0) for cost in costs):
         raise CogmapError(
             f"observation: 'costs' is {_short(value)}; give each action a finite number of 0 or more, or None"
         )
-    return tuple(costs)
+    return tuple(None if cost is None else float(cost) for cost in costs)
 
 
 def _short(value: Any) -> str:

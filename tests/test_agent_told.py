@@ -227,9 +227,11 @@ def test_of_ways_alike_the_cheapest_from_here_is_taken(tmp_path: Any) -> None:
             agent.save(tmp_path / "agent.npz")
             assert names[Agent.load(tmp_path / "agent.npz").act()] == cheap
             assert names[agent.act()] == cheap
-    for bad in ([1.0], {"up": -1.0}, [np.nan] * 5, "dear"):
+    for bad in ([1.0], {"up": -1.0}, [np.nan] * 5, [True] * 5, "dear", "12345"):
         with pytest.raises(CogmapError, match=r"'costs' is .*; give each action a finite number of 0 or more, or None"):
             agent.step({**seen, "costs": bad})
+    with pytest.raises(CogmapError, match="'costs' has 'upp'; give costs of actions by name: up"):
+        agent.step({**seen, "costs": {"upp": 1.0}})
 
 
 def test_what_moves_cost_is_counted_and_kept(tmp_path: Any) -> None:
