@@ -1,7 +1,5 @@
 """What a map that is known says to the hypotheses: files of earlier versions, and maps that are given."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from ..inference import NOWHERE, Place, Share, Way

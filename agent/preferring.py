@@ -1,7 +1,5 @@
 """What an agent is told to hope for, checked, and as plans weigh it."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from typing import Any, cast
 

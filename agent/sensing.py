@@ -1,7 +1,5 @@
 """What one step brings, in the words of the hypotheses about the map."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import log
 

@@ -1,7 +1,5 @@
 """A map that is known beforehand, as records of hypotheses."""
 
-from __future__ import annotations
-
 from collections import Counter, deque
 from collections.abc import Hashable, Mapping
 from typing import Any, cast

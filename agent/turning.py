@@ -1,7 +1,5 @@
 """A frame that may turn: the agent infers by how many quarter turns, together with the place."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Self, cast
 

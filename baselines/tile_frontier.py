@@ -1,7 +1,5 @@
 """Nearest-frontier search over the tiles of MiniGrid: one flat map, no rooms."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Iterator, Mapping
 from typing import Any

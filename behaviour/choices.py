@@ -1,7 +1,5 @@
 """The choices in a walk, as arrays: what was open, what was taken, and what went before."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

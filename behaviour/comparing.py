@@ -1,7 +1,5 @@
 """Models compared: each fitted to all choices and to all but one fold, task by task, and what that comes to."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Held-out likelihood: bouts that no parameter has seen, predicted from those of the group and of the individual."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Maximum likelihood and maximum a posteriori: parameters from choices, with standard errors."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Recorded walks ready to be fitted, in whatever process; what an agent expected along them is kept in a folder."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import zipfile

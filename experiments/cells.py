@@ -1,7 +1,5 @@
 """One exploration as a cell of a table: a maze, an agent, a seed; many of them, and only those not made before."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Exploring a world from a random place: how many steps until all of it is known, and how few would do?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache

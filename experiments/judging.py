@@ -1,7 +1,5 @@
 """What a map is worth beside the truth, whatever its places are called and whether or not they have positions."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass

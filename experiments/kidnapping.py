@@ -1,7 +1,5 @@
 """Kidnapping: moved without a word in a known world, how soon does an agent know where it is?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Unpack

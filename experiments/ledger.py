@@ -1,7 +1,5 @@
 """A file that keeps finished rows, so that what was interrupted goes on where it was."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping

@@ -1,7 +1,5 @@
 """The same function on many tasks: in this process, on several processes, or on a Dask cluster."""
 
-from __future__ import annotations
-
 import logging
 import multiprocessing
 import os

@@ -1,7 +1,5 @@
 """Rows of results: frozen dataclasses whose types say how they are written as JSON, and checked when they are read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any, Self, cast, get_type_hints

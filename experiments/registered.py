@@ -1,7 +1,5 @@
 """Any environment of MiniGrid by its id: rooms to explore, or what its mission asks for."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass

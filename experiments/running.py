@@ -1,7 +1,5 @@
 """Any agent in any world: the loop that every experiment is built on."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """An agent in a world whose truth is known: set out, exploring, moved without a word."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Executor
 from contextlib import suppress

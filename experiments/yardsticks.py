@@ -1,7 +1,5 @@
 """What exploring a graph is measured by: nearest-frontier search from the same start, and the best tour found."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any

@@ -1,7 +1,5 @@
 """A graph compiled once and asked many times: evidence changes, the tree stays."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace

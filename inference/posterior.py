@@ -1,7 +1,5 @@
 """What inference returns: posteriors and most probable assignments."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field

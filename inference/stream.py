@@ -1,7 +1,5 @@
 """Filtering a template for ever: one slice after the other, in constant memory."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What an agent believes: the generative model as a list of factors, its log of changes, growth, the graph language."""
 
-from __future__ import annotations
-
 from .changes import STEPS, Change, Changes, Entry, Store
 from .cognitive_map import CognitiveMap
 from .column import Column

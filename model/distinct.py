@@ -1,7 +1,5 @@
 """Which numbers there are, for arrays so short that the bookkeeping of `np.unique` outweighs the sorting."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Labelled domains that grow as their labels are met."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Iterator
 
 from .errors import CogmapError

@@ -1,7 +1,5 @@
 """The log of growth, and the short form of what in it is long ago."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """A map as SVG and HTML, for notebooks: short, whatever the map."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .labels import shown

@@ -1,7 +1,5 @@
 """The tables of a map with their labels, as many places of them as are asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 
 import numpy as np

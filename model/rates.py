@@ -1,7 +1,5 @@
 """Numbers that learning goes by: concentrations before evidence, and counts that evidence adds."""
 
-from __future__ import annotations
-
 from dataclasses import astuple, dataclass, fields
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is believed of the world, read from the factors."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Files of others, read within limits: regular ones, no larger than said, JSON that is no more than JSON."""
 
-from __future__ import annotations
-
 import gzip
 import json
 import math

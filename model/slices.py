@@ -1,7 +1,5 @@
 """The slices of eq. 1 in the language of factor graphs, over the support of the belief."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

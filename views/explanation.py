@@ -1,7 +1,5 @@
 """Why the agent did what it did, as numbers and in words."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import asdict, dataclass, replace
 from functools import partial

@@ -1,7 +1,5 @@
 """Bridge planning: the most probable walk from a belief to a target (max-product over states and actions)."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Where the walk led: posterior marginals, pairs, evidence, and the belief about now."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

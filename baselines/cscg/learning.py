@@ -1,7 +1,5 @@
 """Learning the counts of a walk by expectation maximisation (Baum et al. 1970)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

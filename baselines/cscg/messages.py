@@ -1,7 +1,5 @@
 """Forward and backward messages along a walk, by a tree of products rather than step by step."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The settings of a CSCG agent."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from math import isfinite
 from typing import Any

@@ -1,7 +1,5 @@
 """The most probable path (Viterbi 1967), and training on it alone."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

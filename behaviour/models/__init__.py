@@ -1,7 +1,5 @@
 """Models of choice, a file each."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ...model import CogmapError

@@ -1,7 +1,5 @@
 """What a term of a choice model is: its parameters, and what it adds to the log weight of each way."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Habit: log E(action), the action named by how it lies to the last moves."""
 
-from __future__ import annotations
-
 from itertools import product
 from typing import Any
 

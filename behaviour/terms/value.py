@@ -1,7 +1,5 @@
 """Value: the expected free energy of what an agent with a map would do next, as it begins with each way."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

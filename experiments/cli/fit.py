@@ -1,7 +1,5 @@
 """`cogmap fit`: models of choice, fitted to recorded walks and compared by what they predict of bouts held out."""
 
-from __future__ import annotations
-
 from contextlib import nullcontext
 from dataclasses import asdict
 from functools import partial

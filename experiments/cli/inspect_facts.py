@@ -1,7 +1,5 @@
 """What is in a saved agent, as plain JSON values."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """`cogmap kidnap`: moved without a word, one run for people, or a sweep."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import typer

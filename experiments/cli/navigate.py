@@ -1,7 +1,5 @@
 """`cogmap navigate`: to a preferred sight, one run for people, or a sweep."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
 import typer

@@ -1,7 +1,5 @@
 """`cogmap explore` and `cogmap navigate` in environments of MiniGrid by their ids."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

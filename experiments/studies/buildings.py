@@ -1,7 +1,5 @@
 """The study `buildings`: real maps explored, against nearest-frontier search and the best offline tour."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial

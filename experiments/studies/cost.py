@@ -1,7 +1,5 @@
 """The study `cost`: the paper's table of the computation time of 100 forced exploring steps."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import partial

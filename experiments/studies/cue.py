@@ -1,7 +1,5 @@
 """The study `cue`: the T maze of active inference, whose cue tells where the reward is."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from functools import partial

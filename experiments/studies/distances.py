@@ -1,7 +1,5 @@
 """The study `distances`: steps to a preferred sight from rooms at every distance, beside CSCG with learned maps."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial

@@ -1,7 +1,5 @@
 """The study `goals`: steps to a preferred sight against the exact shortest path, with a map and without."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial

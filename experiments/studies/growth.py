@@ -1,7 +1,5 @@
 """The study `growth`: three ways to grow a map, after the paper's figure on internal map layouts."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial

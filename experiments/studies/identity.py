@@ -1,7 +1,5 @@
 """The study `identity`: is a place recognised, on toruses, through portals, under noise, and without positions?"""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, fields

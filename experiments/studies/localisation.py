@@ -1,7 +1,5 @@
 """The paper's study of localisation: put at the foot of an aliased T, where does the agent think it is?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial

@@ -1,7 +1,5 @@
 """The study `mice`: recorded animals in a labyrinth (Rosenberg et al. 2021), and what models say of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial

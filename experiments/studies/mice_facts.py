@@ -1,7 +1,5 @@
 """What the study `mice` counts along a walk, and its labyrinth: that of the recordings, or one like it."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass

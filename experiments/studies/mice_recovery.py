@@ -1,7 +1,5 @@
 """Simulated individuals of the study `mice`: are parameters and models found again?"""
 
-from __future__ import annotations
-
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any

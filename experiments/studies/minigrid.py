@@ -1,7 +1,5 @@
 """The study `minigrid`: from pixels to places, beside the authors' published figures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial

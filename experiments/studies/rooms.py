@@ -1,7 +1,5 @@
 """The study `rooms`: the paper's figure of the steps until every room has been entered once."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial

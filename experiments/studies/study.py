@@ -1,7 +1,5 @@
 """What a study is: what it asks, what is run, and what the rows come to."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Executor

@@ -1,7 +1,5 @@
 """The paper's study of remapping: three blocks of runs in Tolman's maze, by the routes that were taken."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace

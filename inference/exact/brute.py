@@ -1,7 +1,5 @@
 """The oracle: every assignment enumerated, in log space. For small graphs and for tests."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

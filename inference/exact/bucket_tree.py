@@ -1,7 +1,5 @@
 """The backward pass: from P(x_i | S_i) of every bucket to its belief P(x_i, S_i), and what is read off beliefs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

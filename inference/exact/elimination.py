@@ -1,7 +1,5 @@
 """The numpy engine: exact sum-product and max-product by bucket elimination, in logs where plain numbers fall short."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Collection, Iterator, Sequence
 

@@ -1,7 +1,5 @@
 """Elimination orders: along time, by minimum weight, by minimum fill, or as told; and what they cost."""
 
-from __future__ import annotations
-
 import heapq
 import math
 from collections.abc import Callable, Collection, Iterable, Sequence

@@ -1,7 +1,5 @@
 """A graph and its evidence, reduced to what an engine has to sum over."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A few targets without the rest: what cannot tell anything about them is left out."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar

@@ -1,7 +1,5 @@
 """Which way the ways of a place lead: what a place is known by that looks like many others."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 from math import isfinite
 from typing import Any, cast

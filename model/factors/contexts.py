@@ -1,7 +1,5 @@
 """P(k | s): a context of the world that is not seen, on which sights and ways may depend."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from typing import Any, cast
 

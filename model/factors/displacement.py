@@ -1,7 +1,5 @@
 """P(moved_t): the agent was put into some visited place without being told."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

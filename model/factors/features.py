@@ -1,7 +1,5 @@
 """P(x | s) of a vector of features: which prototype a place looks like, known again by a likelihood."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Readings of sensors, checked and brought into one form: labels, likelihoods of labels, ways."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from math import isfinite

@@ -1,7 +1,5 @@
 """What every sensor offers: its part P(reading | s) of the likelihood."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable
 from typing import Any
 

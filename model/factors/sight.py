@@ -1,7 +1,5 @@
 """P(o | s): which label a place shows, as Dirichlet counts."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from typing import Any, cast
 

@@ -1,7 +1,5 @@
 """Visited places by the sights that they have counts for, so that a sight can be looked up in a large map."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """P(s' | s, a): where the ways of a place lead, as Dirichlet counts B_s."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """P(c | s): which ways are sensed open; learned as transitions are."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from math import log
 from typing import Any

@@ -1,7 +1,5 @@
 """Factors: non-negative functions of named discrete variables, dense or sparse."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Factor graphs as plain JSON values and back, and when two of them are the same."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar, cast

@@ -1,7 +1,5 @@
 """What files of Bayesian networks have in common: conditionals one a variable, and errors with the line."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import prod

@@ -3,8 +3,6 @@
 Tables list the last variable of a scope fastest; in a network of type BAYES that is the child.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Hashable, Mapping
