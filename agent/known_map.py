@@ -25,23 +25,16 @@ class GivenWay(NamedTuple):
 class KnownMap:
     """A graph of places, before anybody has been there.
 
-    Attributes:
-        where: what errors call it.
-        attributes: of the graph.
-        nodes: attributes by id, in order.
-        ways: all that are open.
-        contexts: those that the world may be in; none where there is but one.
-
     A graph whose attribute `contexts` lists some is taken once for each: a node may say in `contexts` what differs,
     such as `{"left": {"sight": "reward"}}`; an edge may say `only`, the contexts in which it is open, and `then`, the
     context that it leads to (the way that takes a key).
     """
 
-    where: str
-    attributes: Facts
-    nodes: Mapping[Hashable, Facts]
-    ways: tuple[GivenWay, ...]
-    contexts: tuple[Hashable, ...] = ()
+    where: str  # what errors call it
+    attributes: Facts  # of the graph
+    nodes: Mapping[Hashable, Facts]  # attributes by id, in order
+    ways: tuple[GivenWay, ...]  # all that are open
+    contexts: tuple[Hashable, ...] = ()  # those that the world may be in; none where there is but one
 
     @classmethod
     def of(cls, source: Any) -> KnownMap:
@@ -104,11 +97,7 @@ class KnownMap:
 
     @property
     def motions(self) -> dict[str, tuple[int, ...]]:
-        """Names and displacements of the actions, with one that stays.
-
-        Raises:
-            CogmapError: the graph does not say.
-        """
+        """Names and displacements of the actions, with one that stays. Raises CogmapError: the graph does not say."""
         given = self.attributes.get("motions")
         if not isinstance(given, Mapping) or not given:
             raise CogmapError(f"{self.where}: it does not say 'motions'; give the agent some: Agent(motions, map=...)")

@@ -31,11 +31,7 @@ class Record:
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Self:
-        """The row that `to_dict` gave.
-
-        Raises:
-            CogmapError: a value is missing, unknown or of a wrong kind.
-        """
+        """The row that `to_dict` gave. Raises CogmapError: a value is missing, unknown or of a wrong kind."""
         left, again = dict(values), "remove it, its run is made again"
         row = cls._taken(left, again)
         if left:

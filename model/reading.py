@@ -74,11 +74,7 @@ def unpack_gzip(path: str | PathLike[str], content: bytes, *, most: int = LARGES
 
 
 def check_size(path: str | PathLike[str], size: int, most: int) -> None:
-    """Refuse what is too large.
-
-    Raises:
-        CogmapError: it is.
-    """
+    """Refuse what is too large. Raises CogmapError: it is."""
     if size > most:
         raise CogmapError(f"{path} has {size:,} bytes; such a file has {most:,} at most")
 
@@ -107,11 +103,7 @@ def count_values(content: bytes) -> int:
 
 
 def check_values(count: int) -> None:
-    """Refuse more than can be kept in memory.
-
-    Raises:
-        ValueError: there are.
-    """
+    """Refuse more than can be kept in memory. Raises ValueError: there are."""
     if count > MOST_VALUES:
         raise ValueError(f"JSON of {count:,} values or so; {MOST_VALUES:,} are read at most")
 

@@ -186,11 +186,7 @@ class _Layout:
 
 
 def check_label(label: str, where: str) -> None:
-    """Refuse a label that means something else, or cannot be printed.
-
-    Raises:
-        WorldError: it is one.
-    """
+    """Refuse a label that means something else, or cannot be printed. Raises WorldError: it is one."""
     if _NEGATIVE.fullmatch(label) and label != "-1":
         raise WorldError(f"{where}: label {label} is negative; labels count from 0, -1 means no room")
     if not label.isprintable():

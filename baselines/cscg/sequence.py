@@ -60,13 +60,9 @@ class Walk:
 
 @dataclass(frozen=True)
 class Triples:
-    """The (sight, action, next sight) that have a block of their own in a model.
+    """The (sight, action, next sight) that have a block of their own in a model."""
 
-    Attributes:
-        rows: `[N, 3]` distinct, in lexicographic order.
-    """
-
-    rows: Ints
+    rows: Ints  # `[N, 3]` distinct, in lexicographic order
 
     def __len__(self) -> int:
         return len(self.rows)

@@ -72,11 +72,7 @@ class ChoiceModel:
         return np.array([p.check(given.get(p.name, p.start)) for p in self.parameters], dtype=np.float64)
 
     def prepare(self, choices: Choices) -> Prepared:
-        """Choices as it reads them.
-
-        Raises:
-            CogmapError: it needs prospects, and they have none.
-        """
+        """Choices as it reads them. Raises CogmapError: it needs prospects, and they have none."""
         return Prepared(choices, choices.open, tuple(term.prepare(choices) for term in self.terms))
 
     def probabilities(self, prepared: Prepared, values: Floats) -> Floats:

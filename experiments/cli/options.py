@@ -129,7 +129,8 @@ class Where:
             only = f"--view, --tiles and --turned are for worlds of MiniGrid, such as {MINIGRID}3x3"
             raise CogmapError(f"{only}, not {name}")
         else:
-            world = load_world(name, pose=self.told, **how)  # refused by name where they are not known
+            how["pose"] = self.told  # refused by name where it is not known
+            world = load_world(name, **how)
         return NoisyWorld(world, **rates) if rates else world
 
 

@@ -163,11 +163,7 @@ def studies() -> dict[str, AnyStudy]:
 
 
 def study_named(name: str) -> AnyStudy:
-    """The study of that name.
-
-    Raises:
-        CogmapError: there is none.
-    """
+    """The study of that name. Raises CogmapError: there is none."""
     if name not in studies():
         raise CogmapError(f"no study is called {name!r}; choose one of {', '.join(studies())}, or {EVERYTHING}")
     return studies()[name]

@@ -87,23 +87,14 @@ class LoopyReport:
 
 @dataclass(frozen=True, slots=True)
 class LoopySolution(Solution):
-    """Beliefs of nodes and tables.
+    """Beliefs of nodes and tables."""
 
-    Attributes:
-        problem: what was asked.
-        report: how it went.
-        nodes: `[cardinality]` belief of each node.
-        scopes: nodes of each table of several nodes.
-        tables: belief of each of these.
-        log_evidence: minus Bethe's free energy; neither a bound nor exact, but on trees.
-    """
-
-    problem: Problem
-    report: LoopyReport
-    nodes: Sequence[FloatArray]
-    scopes: Sequence[tuple[int, ...]]
-    tables: Sequence[FloatArray]
-    log_evidence: float
+    problem: Problem  # what was asked
+    report: LoopyReport  # how it went
+    nodes: Sequence[FloatArray]  # `[cardinality]` belief of each node
+    scopes: Sequence[tuple[int, ...]]  # nodes of each table of several nodes
+    tables: Sequence[FloatArray]  # belief of each of these
+    log_evidence: float  # minus Bethe's free energy; neither a bound nor exact, but on trees
     instead: ClassVar[str] = "use an exact engine, or engine='sampling'"
 
     def joint(self, names: Sequence[str]) -> FloatArray:

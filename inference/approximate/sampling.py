@@ -47,11 +47,7 @@ class Sampling:
         return "sampling"
 
     def solve(self, problem: Problem) -> SamplingSolution:
-        """Weighted samples of all variables.
-
-        Raises:
-            CogmapError: no sample has a weight above 0.
-        """
+        """Weighted samples of all variables. Raises CogmapError: no sample has a weight above 0."""
         rng = np.random.default_rng(self.seed)
         order = plan_elimination(problem, memory=math.inf).order
         parts, log_bound = _parts(problem, order, self.largest)
@@ -100,21 +96,13 @@ class SamplingReport:
 
 @dataclass(frozen=True, slots=True)
 class SamplingSolution(Solution):
-    """Weighted samples.
+    """Weighted samples."""
 
-    Attributes:
-        problem: what was asked.
-        report: how good the samples are.
-        drawn: `[variables, samples]` indices of labels.
-        weights: `[samples]`, summing to 1.
-        log_evidence: log of the mean weight; Z itself is estimated without bias.
-    """
-
-    problem: Problem
-    report: SamplingReport
-    drawn: IntArray
-    weights: FloatArray
-    log_evidence: float
+    problem: Problem  # what was asked
+    report: SamplingReport  # how good the samples are
+    drawn: IntArray  # `[variables, samples]` indices of labels
+    weights: FloatArray  # `[samples]`, summing to 1
+    log_evidence: float  # log of the mean weight; Z itself is estimated without bias
 
     def joint(self, names: Sequence[str]) -> FloatArray:
         """Estimate of P(names | evidence), one axis a name."""

@@ -16,19 +16,12 @@ MOST_ASSIGNMENTS = 2_000_000
 
 @dataclass(frozen=True, slots=True)
 class BruteSolution(Solution):
-    """All assignments with their posterior.
+    """All assignments with their posterior."""
 
-    Attributes:
-        graph: the graph.
-        log_evidence: log Z.
-        assignments: `[n, variables]` label indices, n assignments that fit the evidence.
-        probabilities: `[n]` posterior of each.
-    """
-
-    graph: FactorGraph
-    log_evidence: float
-    assignments: IntArray
-    probabilities: FloatArray
+    graph: FactorGraph  # the graph
+    log_evidence: float  # log Z
+    assignments: IntArray  # `[n, variables]` label indices, n assignments that fit the evidence
+    probabilities: FloatArray  # `[n]` posterior of each
 
     def joint(self, names: Sequence[str]) -> FloatArray:
         """P(names | evidence), one axis a name."""

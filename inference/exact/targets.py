@@ -15,19 +15,12 @@ from .solution import Solution
 
 @dataclass(frozen=True, slots=True)
 class TargetSolution(Solution):
-    """The posterior of some variables.
+    """The posterior of some variables."""
 
-    Attributes:
-        graph: the graph.
-        given: what is known.
-        memory: bytes that a query may take.
-        tree: of what is left of the graph.
-    """
-
-    graph: FactorGraph
-    given: Given
-    memory: float
-    tree: BucketTree
+    graph: FactorGraph  # the graph
+    given: Given  # what is known
+    memory: float  # bytes that a query may take
+    tree: BucketTree  # of what is left of the graph
     instead: ClassVar[str] = "ask without `targets`"
 
     @property

@@ -146,22 +146,14 @@ class ModelFactor:
     _context: Context | None = None
 
     def attach(self, context: Context) -> None:
-        """Make it part of a model.
-
-        Raises:
-            CogmapError: it is part of one already.
-        """
+        """Make it part of a model. Raises CogmapError: it is part of one already."""
         if self._context is not None:
             raise CogmapError(f"{self.name}: this {type(self).__name__} belongs to another agent; make one for each")
         self._context = context
 
     @property
     def context(self) -> Context:
-        """What it shares with the other factors of its model.
-
-        Raises:
-            CogmapError: it belongs to no model yet.
-        """
+        """What it shares with the other factors of its model. Raises CogmapError: it belongs to no model yet."""
         if self._context is None:
             raise CogmapError(f"{self.name}: it belongs to no model yet; give it to an Agent or a CognitiveMap")
         return self._context

@@ -48,11 +48,7 @@ class Bearings(Sight):
         return again / max(kinds, 1) if len(shown) else 1.0 - again
 
     def check(self, value: Any) -> Hashable:
-        """The bearings as a tuple, -1 for none.
-
-        Raises:
-            CogmapError: not degrees, or None, for each action.
-        """
+        """The bearings as a tuple, -1 for none. Raises CogmapError: not degrees, or None, for each action."""
         listed = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes)
         given = list(cast(Sequence[Any], value)) if listed else []
         if len(given) != self._actions or not all(map(_is_bearing, given)):

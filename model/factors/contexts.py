@@ -72,11 +72,7 @@ class Contexts(Sensor):
             self._of.set(place, self._number(value))
 
     def check(self, value: Any) -> Shares:
-        """A context, or likelihoods of contexts.
-
-        Raises:
-            CogmapError: it is neither.
-        """
+        """A context, or likelihoods of contexts. Raises CogmapError: it is neither."""
         if not isinstance(value, Mapping):
             number = self._number(value)
             return tuple(float(at == number) for at in range(len(self.values)))

@@ -76,11 +76,7 @@ class Features(Sight):
         return (*super().stores, self.memory)
 
     def check(self, value: Any) -> Floats:
-        """The vector, as numbers.
-
-        Raises:
-            CogmapError: it is no vector of `size` finite numbers.
-        """
+        """The vector, as numbers. Raises CogmapError: it is no vector of `size` finite numbers."""
         if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():  # pyright: ignore[reportUnknownArgumentType, reportUnknownMemberType]
             raise CogmapError(f"observation: {self.name} is masked; give UNSEEN where nothing was seen")
         try:
@@ -114,11 +110,7 @@ class Features(Sight):
         return likely[0] if len(likely) == 1 else {number: float(told[number]) for number in likely}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, Any], places: int) -> None:
-        """Take over labels, counts and prototypes.
-
-        Raises:
-            CogmapError: not one label a prototype.
-        """
+        """Take over labels, counts and prototypes. Raises CogmapError: not one label a prototype."""
         super().restore(state, arrays, places)
         self.memory.restore({part: arrays[f"{self.memory.name}.{part}"] for part in self.memory.state()})
         if self.memory.count != len(self.labels):

@@ -54,11 +54,7 @@ def checked_label(value: Any, sensor: str, declared: Domain) -> Hashable:
 
 
 def declared(labels: Any, sensor: str) -> tuple[Hashable, ...]:
-    """The labels that a sensor is declared with.
-
-    Raises:
-        CogmapError: they are no list of labels.
-    """
+    """The labels that a sensor is declared with. Raises CogmapError: they are no list of labels."""
     if labels is None:
         return ()
     if isinstance(labels, str | bytes) or not isinstance(labels, Iterable):

@@ -72,11 +72,7 @@ class Transition(ModelFactor):
             self.walked.set((place, action), False)
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
-        """Take over the arrays.
-
-        Raises:
-            CogmapError: an action leads nowhere, not even back.
-        """
+        """Take over the arrays. Raises CogmapError: an action leads nowhere, not even back."""
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=places, least=ELSEWHERE)
         keys, alpha, _ = self.table.concentration(np.arange(places * len(self.motions)))

@@ -40,11 +40,7 @@ class StaticGrowth(Growth):
         return {"places": self.places}
 
     def begin(self, map_: GenerativeModel, *, step: int) -> list[int]:
-        """All places; the first is where the agent wakes up.
-
-        Raises:
-            CogmapError: places have no positions.
-        """
+        """All places; the first is where the agent wakes up. Raises CogmapError: places have no positions."""
         origin = map_.pose.origin
         if origin is None:
             raise CogmapError("growth: static growth tells places apart by their positions; give the agent a Lattice()")

@@ -79,21 +79,13 @@ def _doubted(around: Surroundings, search: _Search, most: int) -> Frontier | Non
 
 @dataclass(slots=True)
 class _Search:
-    """From the place where the agent most probably is.
+    """From the place where the agent most probably is."""
 
-    Attributes:
-        depth: how far it is to each place that was met.
-        ends: places never entered, the nearest first.
-        by: what ways are measured in.
-        before: the place and the action that lead to each.
-        prices: `[K]` what the first step costs, by its action; None where that is one.
-    """
-
-    depth: dict[int, float]
-    ends: list[int]
-    by: str
-    before: dict[int, tuple[int, int]]
-    prices: Floats | None = None
+    depth: dict[int, float]  # how far it is to each place that was met
+    ends: list[int]  # places never entered, the nearest first
+    by: str  # what ways are measured in
+    before: dict[int, tuple[int, int]]  # the place and the action that lead to each
+    prices: Floats | None = None  # `[K]` what the first step costs, by its action; None where that is one
 
     def extra(self, end: int) -> float:
         """What the first step of the way there costs more than a usual one."""
