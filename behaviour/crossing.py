@@ -19,15 +19,10 @@ LEVELS = ("hierarchical", "alone", "pooled")
 
 @dataclass(frozen=True)
 class GroupFit:
-    """A model fitted to a group.
+    """A model fitted to a group."""
 
-    Attributes:
-        group: under the same parameters for all.
-        individuals: of each individual, in order.
-    """
-
-    group: Fit
-    individuals: tuple[Fit, ...]
+    group: Fit  # under the same parameters for all
+    individuals: tuple[Fit, ...]  # of each individual, in order
 
 
 def folds_of(choices: Sequence[Choices], folds: int = FOLDS) -> list[NDArray[np.int64]]:

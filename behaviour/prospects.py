@@ -59,19 +59,12 @@ class Prospects:
 
 @dataclass(frozen=True, eq=False)
 class Followings:
-    """How it went along a recorded walk.
+    """How it went along a recorded walk."""
 
-    Attributes:
-        prospects: of its choices.
-        astray: steps at which the agent believed to be elsewhere than it was.
-        entered: places that it has as entered at the end.
-        nodes: places that were entered.
-    """
-
-    prospects: Prospects
-    astray: int
-    entered: int
-    nodes: int
+    prospects: Prospects  # of its choices
+    astray: int  # steps at which the agent believed to be elsewhere than it was
+    entered: int  # places that it has as entered at the end
+    nodes: int  # places that were entered
 
 
 def new_agent(ground: Ground, *, look_ahead: int = LOOK_AHEAD, seed: int = 0) -> Agent:

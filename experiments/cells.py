@@ -26,19 +26,12 @@ Key = tuple[str, str, str, str, int]
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """One exploration that is to be made.
+    """One exploration that is to be made."""
 
-    Attributes:
-        maze: its layout.
-        agent: one of `AGENTS`.
-        seed: of the start room and of the agent.
-        growth: of the agent `cogmap`; without meaning for the others.
-    """
-
-    maze: Maze
-    agent: str
-    seed: int
-    growth: str = "predicted"
+    maze: Maze  # its layout
+    agent: str  # one of `AGENTS`
+    seed: int  # of the start room and of the agent
+    growth: str = "predicted"  # of the agent `cogmap`; without meaning for the others
 
     @property
     def key(self) -> Key:
@@ -48,21 +41,13 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Row(Record):
-    """One exploration that was made, as ledgers keep it. Rows are equal whatever seconds they took.
+    """One exploration that was made, as ledgers keep it. Rows are equal whatever seconds they took."""
 
-    Attributes:
-        world: name of the maze.
-        layout: digest of rooms and sights, since two mazes may have one name.
-        agent: name of the agent.
-        growth: of the agent `cogmap`.
-        run: its figures.
-    """
-
-    world: str
-    layout: str = field(repr=False)
-    agent: str
-    growth: str
-    run: ExploreRun
+    world: str  # name of the maze
+    layout: str = field(repr=False)  # digest of rooms and sights, since two mazes may have one name
+    agent: str  # name of the agent
+    growth: str  # of the agent `cogmap`
+    run: ExploreRun  # its figures
 
     @property
     def key(self) -> Key:

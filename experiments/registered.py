@@ -20,25 +20,15 @@ MOVES = 200
 
 @dataclass(frozen=True, slots=True)
 class IdRun(Record):
-    """One episode in an environment of MiniGrid.
+    """One episode in an environment of MiniGrid."""
 
-    Attributes:
-        seed: of the environment and of the agent.
-        reached: whether the environment gave a reward: the mission is fulfilled.
-        steps: of the upper level.
-        low_level_steps: of the body.
-        rooms: places of the map that were visited.
-        explored: whether at the end no way was left that was seen open and not walked.
-        barred: what the body could not get past, in words.
-    """
-
-    seed: int
-    reached: bool
-    steps: int
-    low_level_steps: int
-    rooms: int
-    explored: bool
-    barred: tuple[str, ...] = ()
+    seed: int  # of the environment and of the agent
+    reached: bool  # whether the environment gave a reward: the mission is fulfilled
+    steps: int  # of the upper level
+    low_level_steps: int  # of the body
+    rooms: int  # places of the map that were visited
+    explored: bool  # whether at the end no way was left that was seen open and not walked
+    barred: tuple[str, ...] = ()  # what the body could not get past, in words
 
 
 def is_registered(world: str) -> bool:

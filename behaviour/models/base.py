@@ -37,15 +37,10 @@ class Prepared:
 
 @dataclass(frozen=True)
 class ChoiceModel:
-    """P(way) = (1 - ε) softmax(sum of the terms) + ε / number of ways.
+    """P(way) = (1 - ε) softmax(sum of the terms) + ε / number of ways."""
 
-    Attributes:
-        name: of it.
-        terms: what the log weight of a way is the sum of; without any all ways are alike.
-    """
-
-    name: str
-    terms: tuple[Term, ...] = ()
+    name: str  # of it
+    terms: tuple[Term, ...] = ()  # what the log weight of a way is the sum of; without any all ways are alike
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
