@@ -69,7 +69,6 @@ class Buildings(Study[Task, BuildingRun]):
     largest: int = LARGEST
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Task]:
-        """Each map with each kind of sights, with every seed."""
         return [(path, sights, seed) for path in self.maps() for sights in SIGHTS for seed in seeds]
 
     def maps(self) -> list[str]:
@@ -89,7 +88,6 @@ class Buildings(Study[Task, BuildingRun]):
         return found
 
     def run(self, task: Task, settings: Settings) -> BuildingRun:
-        """One map explored once."""
         path, sights, seed = task
         world: Any = _world(path, SIGHTS[sights])
         name = world.chart.name
@@ -103,7 +101,6 @@ class Buildings(Study[Task, BuildingRun]):
         return BuildingRun(name, sights, explored, navigate(world, seed, goal=shown, settings=settings))
 
     def summarise(self, rows: Sequence[BuildingRun]) -> Findings:
-        """Means by map and sights."""
         maps = list(dict.fromkeys(row.map for row in rows))
         groups = {(name, sights): _of(rows, name, sights) for name in maps for sights in SIGHTS}
         table = [_row(name, sights, group) for (name, sights), group in groups.items() if group]

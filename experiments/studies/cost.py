@@ -68,7 +68,6 @@ class Cost(Study[tuple[str, int], Time]):
         return Time(*task, round(_seconds(*task, settings, self.steps), 5))
 
     def summarise(self, rows: Sequence[Time]) -> Findings:
-        """Median and range by agent, beside what was published."""
         whole, runs = f"{self.steps} forced exploring steps in {WORLD}", len(rows) // len(MODELS)
         by_agent = sorted(rows, key=lambda row: MODELS.index(row.agent))
         times, summary, lines, table = dict[str, Interval](), list[Any](), list[str](), list[list[Value]]()

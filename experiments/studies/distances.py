@@ -73,7 +73,6 @@ class Distances(Study[tuple[str, str, int], DistanceRow]):
         return [(world, model, seed) for world in PAPERS for model in MODELS for seed in seeds]
 
     def run(self, task: tuple[str, str, int], settings: Settings) -> DistanceRow:
-        """Learn one maze, then go to the goal from each distance."""
         world, model, seed = task
         maze, known = MAZES[world], model != "cogmap_unknown"
         goal, parts = draw_goal(maze, seed), Parts(MODELS[model][0], settings)
@@ -91,7 +90,6 @@ class Distances(Study[tuple[str, str, int], DistanceRow]):
         return DistanceRow(world, aliased, model, seed, goal, session.steps is not None, tuple(ways))
 
     def summarise(self, rows: Sequence[DistanceRow]) -> Findings:
-        """Means by distance, of the mazes in which sights differ and of those in which they repeat."""
         cells = summarised(rows)
         heads = {model: name for model, (_, name, _, _) in MODELS.items()}
         table = [

@@ -112,7 +112,6 @@ class Explorations(Kept[Cell, Row]):
     cap: int = CAP  # moves after which a run gives up
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Cell]:
-        """A cell for each maze, model, way to grow and seed."""
         return [
             Cell(MAZES[world], agent, seed, growth)
             for world in self.worlds
@@ -122,17 +121,14 @@ class Explorations(Kept[Cell, Row]):
         ]
 
     def run(self, task: Cell, settings: Settings) -> Row:
-        """One exploration."""
         return run_cell(task, settings=settings, max_steps=self.cap)
 
     def key(self, task: Cell) -> Key:
-        """That of the cell."""
         return task.key
 
     def made(
         self, tasks: Sequence[Cell], settings: Settings, executor: Executor | None, ledger: Ledger | None
     ) -> Iterator[Row]:
-        """Those that the ledger has are not made again, whichever study asked for them."""
         return run_cells(tasks, settings=settings, max_steps=self.cap, ledger=ledger, executor=executor)
 
     def grid(self, rows: Sequence[Row], what: str = "") -> Grid:

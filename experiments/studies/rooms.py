@@ -43,7 +43,6 @@ class Rooms(Explorations):
     models: tuple[str, ...] = ("cogmap", "frontier", "random", *CSCG)
 
     def summarise(self, rows: Sequence[Row]) -> Findings:
-        """Means by maze and model, and the paper's claim."""
         grid = self.grid(rows)
         claims = [_claim(grid, world, agent) for world in self.worlds if (agent := self.best(grid, world))]
         lines = [f"steps until every room was entered once, mean ± standard deviation; {LEGEND}"]

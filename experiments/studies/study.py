@@ -136,7 +136,6 @@ class Kept(Study[Task, Row]):
     def completed(
         self, tasks: Sequence[Task], settings: Settings, executor: Executor | None, ledger: Ledger | None
     ) -> Iterator[tuple[int, Row]]:
-        """Number of the task and its row."""
         number = {self.key(task): i for i, task in enumerate(tasks)}
         for row in self.made(tasks, settings, executor, ledger):
             yield number[row.key], row

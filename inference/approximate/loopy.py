@@ -112,7 +112,6 @@ class LoopySolution(Solution):
         )
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """Of a large sparse factor the entries that agree with the evidence, and the belief of each; else None."""
         if factor.label not in self.problem.entries:
             return None
         (node, mapping), rows = self.problem.entries[factor.label]
@@ -123,7 +122,6 @@ class LoopySolution(Solution):
         return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
 
     def standard_error(self, names: Sequence[str]) -> FloatArray:
-        """Not known."""
         raise CogmapError(f"loopy: how far its marginals are off is not known; {self.instead}")
 
 

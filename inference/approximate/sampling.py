@@ -105,7 +105,6 @@ class SamplingSolution(Solution):
     log_evidence: float  # log of the mean weight; Z itself is estimated without bias
 
     def joint(self, names: Sequence[str]) -> FloatArray:
-        """Estimate of P(names | evidence), one axis a name."""
         return self._counted(names, self.weights)
 
     def standard_error(self, names: Sequence[str]) -> FloatArray:

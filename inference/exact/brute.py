@@ -24,19 +24,16 @@ class BruteSolution(Solution):
     probabilities: FloatArray  # `[n]` posterior of each
 
     def joint(self, names: Sequence[str]) -> FloatArray:
-        """P(names | evidence), one axis a name."""
         column = self.graph.wiring.number
         result = np.zeros([self.graph.variable_named(name).cardinality for name in names])
         np.add.at(result, tuple(self.assignments[:, column[name]] for name in names), self.probabilities)
         return result
 
     def entropy(self) -> float:
-        """H = -Σ_x P(x) log P(x), in nats."""
         positive = self.probabilities[self.probabilities > 0]
         return -float(positive @ np.log(positive))
 
     def sample(self, count: int, rng: np.random.Generator) -> IntArray:
-        """`[variables, count]` indices of labels, drawn from the posterior."""
         return self.assignments[rng.choice(len(self.probabilities), size=count, p=self.probabilities)].T
 
 

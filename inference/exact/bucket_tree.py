@@ -89,7 +89,6 @@ class BucketTree(Solution):
         return self.over[at]
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
         if factor.label not in self.plan.problem.entries:
             return None
         (node, mapping), rows = self.plan.problem.entries[factor.label]

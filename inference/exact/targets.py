@@ -33,11 +33,9 @@ class TargetSolution(Solution):
         return elimination.solve(problem, None, self.memory).log_evidence
 
     def joint(self, names: Sequence[str]) -> FloatArray:
-        """P(names | evidence), one axis a name; each of them a target."""
         return self.tree.joint(names)
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
         return self.tree.entries(factor)
 
 

@@ -25,7 +25,6 @@ class Bearings(Sight):
         super().__init__(name, prior=prior)
 
     def join(self, context: Context, transitions: Transition) -> None:
-        """Make it part of a model."""
         super().join(context, transitions)
         self._actions = len(context.motions)
 
@@ -38,7 +37,6 @@ class Bearings(Sight):
         return told
 
     def log_predictive(self, reading: Any) -> float:
-        """The same of a place that was never imagined."""
         return float(np.log(self._of_new(reading))) if isinstance(reading, int) else super().log_predictive(reading)
 
     def _of_new(self, reading: int) -> float:

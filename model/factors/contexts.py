@@ -49,25 +49,20 @@ class Contexts(Sensor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Name and contexts."""
         return {"values": list(self.values), "name": self.name}
 
     def attach(self, context: Context) -> None:
-        """Make it part of a model."""
         super().attach(context)
         self._of = Column(f"{self.name}.of", np.int64, fill=-1, changes=context.changes)
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """Of which context each place is."""
         return (self._of,)
 
     def grow(self, places: int) -> None:
-        """Of new places nobody knows."""
         self._of.resize(places)
 
     def know(self, place: int, value: Any) -> None:
-        """The place is of this context."""
         if value is not None:
             self._of.set(place, self._number(value))
 
@@ -100,7 +95,6 @@ class Contexts(Sensor):
         return np.log(np.append(told, told.mean()))[self._of.values[places]]
 
     def log_predictive(self, reading: Shares) -> float:
-        """Log of the mean."""
         return float(np.log(np.maximum(reading, FLOOR).mean()))
 
     def learn(self, place: int, reading: Shares, weight: float) -> None:

@@ -28,7 +28,6 @@ class Displacement(ModelFactor):
 
     @property
     def options(self) -> dict[str, float]:
-        """P(moved_t)."""
         return {"probability": self.probability}
 
     def prior(self, percept: Percept) -> float:

@@ -52,7 +52,6 @@ class Features(Sight):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Name, size, noise and prior."""
         return {"name": self.name, "size": self.size, "noise": self.noise, "prior": self._prior}
 
     @property
@@ -66,13 +65,11 @@ class Features(Sight):
         return self.memory.spread
 
     def join(self, context: Context, transitions: Transition) -> None:
-        """Make it part of a model."""
         super().join(context, transitions)
         self.memory = Prototypes(f"{self.name}.prototypes", size=self.size, noise=self.noise)
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """The counts, and the prototypes."""
         return (*super().stores, self.memory)
 
     def check(self, value: Any) -> Floats:
@@ -110,7 +107,6 @@ class Features(Sight):
         return likely[0] if len(likely) == 1 else {number: float(told[number]) for number in likely}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, Any], places: int) -> None:
-        """Take over labels, counts and prototypes. Raises CogmapError: not one label a prototype."""
         super().restore(state, arrays, places)
         self.memory.restore({part: arrays[f"{self.memory.name}.{part}"] for part in self.memory.state()})
         if self.memory.count != len(self.labels):

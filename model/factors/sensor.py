@@ -45,7 +45,6 @@ class Sensor(ModelFactor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Its name."""
         return {"name": self.name}
 
     def join(self, context: Context, transitions: Transition) -> None:
@@ -92,7 +91,6 @@ class Sensor(ModelFactor):
         return None
 
     def tables(self, support: Support) -> Iterable[Table]:
-        """Its likelihood of what was sensed."""
         if self.name in support.likelihoods:
             reading = support.percept.readings[self.name]
             o, s = f"{self.variable}{support.step}", f"s{support.step}"

@@ -36,7 +36,6 @@ class Transition(ModelFactor):
     name = "transition"
 
     def attach(self, context: Context) -> None:
-        """Make it part of a model."""
         super().attach(context)
         size, log = len(context.motions), context.changes
         self.motions, self.rates = context.motions, context.rates
@@ -46,7 +45,6 @@ class Transition(ModelFactor):
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """B_s, and what is noted of the doors."""
         return self.table, self.sensed, self.walked
 
     def grow(self, places: int) -> None:

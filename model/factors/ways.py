@@ -38,7 +38,6 @@ class Ways(Sensor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Whether the rates of ways are learned."""
         return {"learned": True} if self._learned else {}
 
     def join(self, context: Context, transitions: Transition) -> None:
@@ -52,11 +51,9 @@ class Ways(Sensor):
         return UNSEEN if ways is None else ways
 
     def log_likelihood(self, places: Ints, reading: Looks) -> Floats:
-        """`[n]` log P(doors as sensed | s)."""
         return np.log(self._each(places, reading)).sum(axis=1)
 
     def likelihood(self, places: Ints, reading: Looks) -> Floats:
-        """`[n]` P(doors as sensed | s)."""
         return np.multiply.reduce(self._each(places, reading), axis=1)
 
     def _each(self, places: Ints, reading: Looks) -> Floats:

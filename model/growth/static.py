@@ -36,7 +36,6 @@ class StaticGrowth(Growth):
 
     @property
     def options(self) -> dict[str, Any]:
-        """How many places."""
         return {"places": self.places}
 
     def begin(self, map_: GenerativeModel, *, step: int) -> list[int]:
