@@ -21,8 +21,7 @@ Floats = NDArray[np.float64]
 ELSEWHERE = "elsewhere"
 """The state of an agent's matrices that is no place of its map."""
 
-NEARLY = 1e-6
-"""How far a column may be from adding up to one."""
+NEARLY = 1e-6  # how far a column may be from adding up to one
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -10,8 +10,7 @@ from ..planning import Preferences
 from .settings import Settings
 from .state import GivenPreferences
 
-LARGEST = 1e9
-"""Of log preferences, in nats."""
+LARGEST = 1e9  # of log preferences, in nats
 
 
 def given_preferences(sights: object, places: object, sensors: object, map_: CognitiveMap) -> GivenPreferences:

@@ -14,8 +14,7 @@ from .source import Source
 Row = dict[str, Any]
 ALL = -1
 """Stands for the fit to all choices where a task names a fold."""
-CHANCE = 1.645
-"""Standard errors that chance exceeds one time in twenty."""
+CHANCE = 1.645  # standard errors that chance exceeds one time in twenty
 _SURE = 1.96  # standard errors of a 95 % interval
 
 

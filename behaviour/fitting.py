@@ -11,8 +11,7 @@ from ..model import CogmapError
 from .models import ChoiceModel, Prepared
 
 Floats = NDArray[np.float64]
-STARTS = 3
-"""Points from which a fit sets out, unless told otherwise."""
+STARTS = 3  # points from which a fit sets out, unless told otherwise
 _STEP = 1e-4  # of the differences that make the Hessian, as a share of the width of a parameter's typical range
 _EDGE = 1e-6  # of this width: a parameter so near to a bound is at it
 _OPTIONS = {"maxiter": 300, "maxcor": 30, "ftol": 1e-9, "gtol": 1e-6}
@@ -54,8 +53,7 @@ class Around:
         return -0.5 * float(away @ away), -away / self.spread
 
 
-Weights = Sequence[Floats]
-"""`[C]` of each individual: how much each choice counts; zero holds it out."""
+Weights = Sequence[Floats]  # `[C]` of each individual: how much each choice counts; zero holds it out
 
 
 def fit(

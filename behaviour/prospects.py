@@ -19,12 +19,9 @@ Ints = NDArray[np.int32]
 Position = tuple[float, ...]
 LOOK_AHEAD = 6
 """Steps of a policy that are judged, unless told otherwise."""
-HALF = 0.5
-"""Belief below which an agent does not know where it is."""
-OLDEST = 60_000
-"""Steps; what is older counts as that old."""
-SIZE = 100_000
-"""Numbers in the larger arrays of an evaluation; more policies are evaluated in parts."""
+HALF = 0.5  # belief below which an agent does not know where it is
+OLDEST = 60_000  # steps; what is older counts as that old
+SIZE = 100_000  # numbers in the larger arrays of an evaluation; more policies are evaluated in parts
 
 
 @dataclass(frozen=True, eq=False)

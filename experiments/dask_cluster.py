@@ -16,8 +16,7 @@ Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 
 _LOUD = ("distributed", "tornado", "asyncio")
-PATIENCE = 5.0
-"""Seconds in which a scheduler must answer, and again in which a worker must be there."""
+PATIENCE = 5.0  # seconds in which a scheduler must answer, and again in which a worker must be there
 
 
 @contextmanager

@@ -14,8 +14,7 @@ from .running import Moment
 
 BELIEVED = 0.6
 """A true transition counts as known from this probability on."""
-CERTAIN = 0.7
-"""From this probability on an agent counts as certain of a place."""
+CERTAIN = 0.7  # from this probability on an agent counts as certain of a place
 OPEN = 0.5
 """What is imagined behind a way counts as a place of the map if the way is believed to lead there at least so much."""
 

@@ -9,8 +9,7 @@ import numpy as np
 from ..model import CogmapError
 from ..worlds import Place
 
-OPTIONAL = {"optional": True}
-"""Metadata of a field that is left out of the JSON where it is None."""
+OPTIONAL = {"optional": True}  # metadata of a field that is left out of the JSON where it is None
 
 
 class Record:

@@ -30,8 +30,7 @@ from .exact import (
 from .posterior import MostProbable, Name, Posterior
 from .query import checked_pairs, checked_targets, log_product
 
-MOST_TREES = 16
-"""Sets of observed variables whose trees are kept."""
+MOST_TREES = 16  # sets of observed variables whose trees are kept
 
 
 @dataclass(slots=True)

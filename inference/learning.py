@@ -20,8 +20,7 @@ from .evidence import given
 from .exact import MEMORY, buckets, forward, plan_elimination, reduce, tree_of
 
 METHODS = ("em", "variational")
-CHUNK = 2**27
-"""Bytes of products and messages that rows asked at once should take."""
+CHUNK = 2**27  # bytes of products and messages that rows asked at once should take
 Data = Mapping[str, Sequence[Hashable]] | Sequence[Mapping[str, Hashable]] | Mapping[Variable, Sequence[Hashable]]
 
 

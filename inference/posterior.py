@@ -12,8 +12,7 @@ from .evidence import Given
 from .exact import Solution, entropy
 
 Name = str | Variable
-LARGEST_JOINT = 2**28
-"""Entries of the largest joint that is handed out."""
+LARGEST_JOINT = 2**28  # entries of the largest joint that is handed out
 
 
 @dataclass(frozen=True, slots=True)

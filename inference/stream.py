@@ -10,8 +10,7 @@ from .exact import MEMORY, buckets, forward, plan_elimination, reduce
 from .posterior import Posterior
 from .query import infer
 
-REACH = 600.0
-"""Nats that one factor spans; a message that spans more is the product of several."""
+REACH = 600.0  # nats that one factor spans; a message that spans more is the product of several
 
 
 class Stream:

@@ -5,8 +5,7 @@ from dataclasses import replace
 
 from .growth_event import GrowthEvent
 
-ROOM = 1000
-"""Events that are kept besides those of the steps that are."""
+ROOM = 1000  # events that are kept besides those of the steps that are
 
 
 class GrowthLog(list[GrowthEvent]):

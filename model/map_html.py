@@ -7,9 +7,7 @@ from .markup import safe
 from .readable_map import ReadableMap
 
 CELL, RADIUS = 48, 15
-LARGEST = 400
-"""Places of a map that is drawn in a notebook."""
-
+LARGEST = 400  # places of a map that is drawn in a notebook
 LEAST = 0.5  # probability of a way that is drawn
 
 

@@ -13,13 +13,11 @@ from typing import Any, BinaryIO, cast
 
 from .errors import CogmapError
 
-LARGEST = 256 * 2**20
-"""Bytes of the largest file that is read whole, packed or not."""
+LARGEST = 256 * 2**20  # bytes of the largest file that is read whole, packed or not
 
 CHUNK = 2**20
 
-MOST_VALUES = 6_000_000
-"""Values of JSON in one file: each takes up to 80 bytes where it is read."""
+MOST_VALUES = 6_000_000  # values of JSON in one file: each takes up to 80 bytes where it is read
 
 _SURROGATE = re.compile(r"[\ud800-\udfff]")
 

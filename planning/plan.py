@@ -16,8 +16,7 @@ from .policies import PolicyGenerator
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-SHOWN = 12
-"""Actions of a plan that its text has."""
+SHOWN = 12  # actions of a plan that its text has
 
 
 @dataclass(frozen=True, slots=True)

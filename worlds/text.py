@@ -20,8 +20,7 @@ from .errors import WorldError
 from .maze import Maze
 from .maze_checks import LARGEST_LABEL, Door, Label, Position, UnreachableError
 
-LARGEST = 128 * 2**20
-"""Bytes of the largest text that is read."""
+LARGEST = 128 * 2**20  # bytes of the largest text that is read
 
 EMPTY = frozenset({".", "-1"})
 _NUMBER = re.compile(r"[0-9]+")

@@ -8,8 +8,7 @@ from .messages import Messages
 from .model import CloneModel, Floats
 from .sequence import Ints, Walk
 
-PIECE = 8
-"""Steps of one triple that are summed in one product."""
+PIECE = 8  # steps of one triple that are summed in one product
 
 
 @dataclass(frozen=True, slots=True)

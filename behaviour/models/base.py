@@ -13,8 +13,7 @@ from ..terms import Parameter, Term
 
 Floats = NDArray[np.float64]
 
-LAPSES = (1.5, 5.0)
-"""Of the Beta prior over the lapse rate."""
+LAPSES = (1.5, 5.0)  # of the Beta prior over the lapse rate
 LAPSE = Parameter(
     name="lapse",
     meaning="ε: share of the choices that are made at random",

@@ -9,8 +9,7 @@ from ..choices import Choices
 from .base import Floats, Parameter, Term
 from .parameters import FORGETTING
 
-EXACT = 5_000_000
-"""Steps of policies that are kept in double precision; more take single precision, for memory."""
+EXACT = 5_000_000  # steps of policies that are kept in double precision; more take single precision, for memory
 
 
 class Value(Term):

@@ -86,8 +86,7 @@ Turned = Annotated[
     bool, typer.Option("--turned", help="In a world of MiniGrid: a silent move turns the body, to a random heading.")
 ]
 
-MINIGRID = "minigrid:"
-"""What the names of room mazes in MiniGrid begin with."""
+MINIGRID = "minigrid:"  # what the names of room mazes in MiniGrid begin with
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 Out = Annotated[
     Path | None, typer.Option(metavar="PICTURE", help="Where the picture goes; WORLD.png in this folder unless given.")
 ]
-MOST_DRAWN = 20_000
-"""Places of the largest world that is drawn."""
+MOST_DRAWN = 20_000  # places of the largest world that is drawn
 
 
 def show_command(

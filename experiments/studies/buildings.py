@@ -25,8 +25,7 @@ DRIFT = {"odometry": 0.05, "heading": 3.0}
 GOAL = "six"
 """The sights of the worlds in which goals are sought."""
 
-LARGEST = 400
-"""Places of the largest map that is studied unless told otherwise."""
+LARGEST = 400  # places of the largest map that is studied unless told otherwise
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,9 +16,7 @@ from .intervals import bootstrap
 from .study import Findings, Study
 from .tables import Table, Value
 
-WANTED: dict[Hashable, float] = {REWARD: 3.0, NOTHING: -3.0}
-"""Log preferences, in nats."""
-
+WANTED: dict[Hashable, float] = {REWARD: 3.0, NOTHING: -3.0}  # log preferences, in nats
 Case = tuple[float, int]  # how often the cue is right, moves of a trial
 
 

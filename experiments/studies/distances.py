@@ -16,8 +16,7 @@ from .intervals import Interval, bootstrap
 from .study import Findings, Study
 from .tables import Table
 
-PAPERS = tuple(name for name in MAZES if name != "tolman")
-"""The mazes of the paper's figure."""
+PAPERS = tuple(name for name in MAZES if name != "tolman")  # the mazes of the paper's figure
 
 MODELS = {
     "cogmap": ("cogmap", "cogmap with its map", BLUE, "o"),

@@ -25,8 +25,7 @@ CAP = 600  # moves after which every agent of these studies gives up
 LEAST = 0.5  # steps that stand for none, which has no logarithm
 TABLE = tuple(name for name in MAZES if name != "tolman")  # the mazes of the paper's table
 LEARN, VISIT, COMPLETE, ORACLE = "steps_to_learn", "steps_to_visit_all", "steps_to_complete", "oracle_steps"
-NONE, MARK = "–", "†"
-"""In a table: nothing; behind a mean over runs of which some did not get there."""
+NONE, MARK = "–", "†"  # in a table: nothing; behind a mean over runs of which some did not get there
 LEGEND = f"{MARK} lower bound: runs that gave up are counted at the cap"
 COUNTED = "A run that gave up is counted and named, never dropped; means over some runs only are marked."
 

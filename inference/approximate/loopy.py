@@ -18,8 +18,7 @@ from ...model import CogmapError, Factor, FloatArray, IntArray
 from ..errors import impossible
 from ..exact import Problem, Solution, in_logs
 
-ZERO = -1e8
-"""Stands for log 0."""
+ZERO = -1e8  # stands for log 0
 
 
 @dataclass(frozen=True, slots=True)

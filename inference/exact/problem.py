@@ -12,8 +12,7 @@ from ..evidence import Given
 from .substitution import Scope, substitute
 from .tables import Table
 
-DENSE = 2**16
-"""Entries up to which a sparse factor is written out."""
+DENSE = 2**16  # entries up to which a sparse factor is written out
 
 Where = tuple[int | None, IntArray | int | None]
 

@@ -11,8 +11,7 @@ from .base import Context, Floats, Ints
 from .sight import Sight
 from .transition import Transition
 
-NONE = -1
-"""Stands for an action that has no way here."""
+NONE = -1  # stands for an action that has no way here
 
 
 class Bearings(Sight):

@@ -12,11 +12,8 @@ from ..rates import is_number
 from .base import Context, Floats, Ints, Support, Table
 from .sensor import Sensor
 
-FLOOR = 1e-12
-"""Likelihood of the contexts that a label leaves out: what is small may yet win."""
-
-Shares = tuple[float, ...]
-"""Likelihood of each context, the largest 1."""
+FLOOR = 1e-12  # likelihood of the contexts that a label leaves out: what is small may yet win
+Shares = tuple[float, ...]  # likelihood of each context, the largest 1
 
 
 class Contexts(Sensor):

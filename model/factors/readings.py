@@ -13,8 +13,7 @@ from ..labels import plain
 from ..motions import Motions
 from ..unseen import UNSEEN
 
-WayReading = bool | float | None
-"""Whether a way is open: true, false, P(open), or None where it was not looked at."""
+WayReading = bool | float | None  # whether a way is open: true, false, P(open), or None where it was not looked at
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,8 +18,7 @@ from .sensor import Sensor
 from .sight_index import SightIndex
 from .transition import Transition
 
-Reading = int | Mapping[int, float]
-"""The number of a label, or likelihoods of labels by number, the largest 1."""
+Reading = int | Mapping[int, float]  # the number of a label, or likelihoods of labels by number, the largest 1
 
 
 class Sight(Sensor):

@@ -10,8 +10,7 @@ from ..visits import Visits
 
 Ints = NDArray[np.int64]
 
-SETTLED = 0.5
-"""Counts in all, from which on a place without any for a sight makes that sight improbable."""
+SETTLED = 0.5  # counts in all, from which on a place without any for a sight makes that sight improbable
 
 
 class SightIndex:

@@ -17,8 +17,7 @@ from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table
 ELSEWHERE = -1
 """Successor that is no place of the map yet."""
 
-UNSURE = 0.1
-"""P(open) and P(blocked) from which on it is open whether a way is open."""
+UNSURE = 0.1  # P(open) and P(blocked) from which on it is open whether a way is open
 
 UNKNOWN, OPEN, BLOCKED = 0, 1, 2
 """What was last sensed of a door."""

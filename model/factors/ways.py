@@ -12,8 +12,7 @@ from .readings import WayReading, checked_ways
 from .sensor import Sensor
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 
-Looks = Sequence[WayReading]
-"""A reading an action."""
+Looks = Sequence[WayReading]  # A reading an action
 
 
 class Ways(Sensor):

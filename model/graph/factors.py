@@ -14,12 +14,9 @@ from .variables import Variable
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-LARGEST_DENSE = 2**28
-"""Entries of a sparse table that is still written out."""
-MOST_AXES = 32
-"""Axes of an array that numpy still broadcasts, of the 64 that it has."""
-NORMALISED = 1e-12
-"""How far the sums of a conditional may be from 1."""
+LARGEST_DENSE = 2**28  # entries of a sparse table that is still written out
+MOST_AXES = 32  # axes of an array that numpy still broadcasts, of the 64 that it has
+NORMALISED = 1e-12  # how far the sums of a conditional may be from 1
 
 
 @dataclass(frozen=True, slots=True, eq=False)

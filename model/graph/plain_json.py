@@ -16,8 +16,7 @@ from .variables import Variable
 
 AnyGraph = TypeVar("AnyGraph", bound=GraphStructure)
 FORMAT = "cogmap factor graph"
-SCHEMA = 1
-"""Version of the layout."""
+SCHEMA = 1  # version of the layout
 
 
 def graph_to_dict(graph: GraphStructure) -> dict[str, Any]:

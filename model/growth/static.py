@@ -10,8 +10,7 @@ from ..errors import CogmapError
 from ..generative import GenerativeModel
 from .base import Growth, Whereabouts
 
-MOST = 10_000_000
-"""Places that can be known beforehand."""
+MOST = 10_000_000  # places that can be known beforehand
 
 
 class StaticGrowth(Growth):

@@ -16,8 +16,7 @@ from .transitions import Floats, Ints, Transitions, likeliest
 from .view import MapView
 from .where import Where
 
-CUTS = 64
-"""Cuts of the map that are kept, at most."""
+CUTS = 64  # cuts of the map that are kept, at most
 
 Key = tuple[bytes, bytes, tuple[bool, ...], tuple[bool, ...]]
 """Of a cut: the places that the agent may be in, those that are in it, what is sensed of the ways, and of which not."""

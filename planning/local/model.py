@@ -193,5 +193,4 @@ def _need(fine: bool | np.bool_, what: str, remedy: str) -> None:
         raise CogmapError(f"local model: {what}; give {remedy}")
 
 
-_A_PLACE = ("places", "belief", "log_C_place", "blocked", "entered", "position")
-"""Tables with a row a place."""
+_A_PLACE = ("places", "belief", "log_C_place", "blocked", "entered", "position")  # tables with a row a place

@@ -11,11 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 MANY = np.iinfo(np.int64).max
-FEW = 64
-"""Places up to which one dense product for all actions is quicker than anything that spares work."""
-
-WIDE = 8
-"""Actions from which on it pays to leave out those that no policy takes."""
+FEW = 64  # places up to which one dense product for all actions is quicker than anything that spares work
+WIDE = 8  # actions from which on it pays to leave out those that no policy takes
 
 
 @dataclass(frozen=True)

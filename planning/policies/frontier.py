@@ -19,14 +19,9 @@ STEPS, METRES = "steps", "metres"
 BY = (STEPS, METRES)
 """What ways are measured in: one a step, or how far apart places lie, over the mean length of a way."""
 
-MOST = 64
-"""Options that are weighed, the nearest, and equals of the last of them."""
-
-DOUBT = 4.0
-"""Steps that it is worth to see where a way leads, for each standard deviation that it would be long."""
-
-SAMPLE = 512
-"""Other places never entered to which the way back is measured, at most, spread evenly over all."""
+MOST = 64  # options that are weighed, the nearest, and equals of the last of them
+DOUBT = 4.0  # steps that it is worth to see where a way leads, for each standard deviation that it would be long
+SAMPLE = 512  # other places never entered to which the way back is measured, at most, spread evenly over all
 
 LARGEST = 1_000
 """Places of the largest map in which ways back are measured along its ways, where places have no positions."""

@@ -14,8 +14,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _OF_BELIEFS = ("staying", "visits", "reached", "_so_far", "_visited", "_held", "_belief_held")
-FEW = 64
-"""Places up to which it does not pay to leave out those without belief."""
+FEW = 64  # places up to which it does not pay to leave out those without belief
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,7 @@ from ..factor_graph import FactorGraph
 from ..factors import FloatArray
 from .network import LARGEST, MOST, check_shape, conditionals_of, failed
 
-MOST_LABELS = 100_000
-"""Labels of all variables together, besides one for each word of the file."""
+MOST_LABELS = 100_000  # labels of all variables together, besides one for each word of the file
 
 
 def read_uai(text: str, evidence: str | None = None) -> FactorGraph:
