@@ -9,9 +9,9 @@ import numpy as np
 
 from ..agent import Agent, Settings
 from ..model import CogmapError
-from .pool import map_seeds
 from .records import Record, mean
 from .running import Moment, run
+from .session import many
 
 _ID = re.compile(r"[\w./-]+-v\d+")
 MOVES = 200
@@ -79,8 +79,7 @@ def run_id(
 
 def run_ids(name: str, *, runs: int, seed: int = 0, **options: Any) -> list[IdRun]:
     """`run_id` with the seeds `seed`, `seed + 1`, ...; `executor` and `on_done` as for `map_tasks`."""
-    how = {key: options.pop(key) for key in ("executor", "on_done") if key in options}
-    return map_seeds(_Task(name, tuple(options.items())), runs=runs, seed=seed, **how)
+    return many(run_id, name, {"runs": runs, "seed": seed, **options})
 
 
 def ids_result(name: str, runs: Sequence[IdRun], *, errand: bool, view: str | None = None) -> dict[str, Any]:
@@ -96,17 +95,6 @@ def ids_result(name: str, runs: Sequence[IdRun], *, errand: bool, view: str | No
     }
     head = {"world": name, "agent": "cogmap", "view": view or "symbolic", "errand": errand}
     return {**head, "runs": [run.to_dict() for run in runs], "summary": summary}
-
-
-@dataclass(frozen=True, slots=True)
-class _Task:
-    """`run_id` with options, so that it can go to other processes."""
-
-    name: str
-    options: tuple[tuple[str, Any], ...]
-
-    def __call__(self, seed: int) -> IdRun:
-        return run_id(self.name, seed, **dict(self.options))
 
 
 def _nothing_left(agent: Agent) -> bool:

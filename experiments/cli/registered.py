@@ -1,5 +1,6 @@
 """`cogmap explore` and `cogmap navigate` in environments of MiniGrid by their ids."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ from .progress import counting
 
 
 def run_registered(
-    at: Where, sweep: Sweep, max_steps: int | None, json: Path | None, *, errand: bool, refused: dict[str, object]
+    at: Where, sweep: Sweep, max_steps: int | None, json: Path | None, *, errand: bool, refused: Mapping[str, object]
 ) -> None:
     """Run episodes in the environment that is called `at.world`, and show them.
 
@@ -23,7 +24,7 @@ def run_registered(
     from ...model import CogmapError
 
     common = {"--noise": at.noise, "--sights": at.sights, "--tiles": at.tiles, "--pose": at.pose, "--dask": sweep.dask}
-    if given := [option for option, value in (refused | common).items() if value not in (None, False, [])]:
+    if given := [option for option, value in {**refused, **common}.items() if value not in (None, False, [])]:
         known = "is for worlds whose truth is known, such as minigrid:3x3; leave it out"
         raise CogmapError(f"{at.world}: {given[0]} {known}")
     lab.check_outputs([json])

@@ -34,6 +34,7 @@ class Loopy:
         CogmapError: an option is out of its range.
     """
 
+    name: ClassVar[str] = "loopy"  # of the engine
     damping: float = 0.5
     iterations: int = 2000
     tolerance: float = 1e-9
@@ -41,11 +42,6 @@ class Loopy:
     def __post_init__(self) -> None:
         if not (0 <= self.damping < 1 and self.iterations >= 1 and self.tolerance > 0):
             raise CogmapError("loopy: give damping in [0, 1), 1 iteration or more, and a tolerance above 0")
-
-    @property
-    def name(self) -> str:
-        """What the engine is called."""
-        return "loopy"
 
     def solve(self, problem: Problem) -> LoopySolution:
         """Beliefs of all nodes and tables.
@@ -111,14 +107,7 @@ class LoopySolution(Solution):
         )
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        if factor.label not in self.problem.entries:
-            return None
-        (node, mapping), rows = self.problem.entries[factor.label]
-        assert node is not None
-        p = self.nodes[node]
-        if mapping is None:
-            return rows, p
-        return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
+        return self.problem.listed(factor, self.nodes.__getitem__)
 
     def standard_error(self, names: Sequence[str]) -> FloatArray:
         raise CogmapError(f"loopy: how far its marginals are off is not known; {self.instead}")

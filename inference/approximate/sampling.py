@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -33,6 +34,7 @@ class Sampling:
         CogmapError: an option is out of its range.
     """
 
+    name: ClassVar[str] = "sampling"  # of the engine
     samples: int = 10_000
     seed: int = 0
     largest: float = 2e4
@@ -40,11 +42,6 @@ class Sampling:
     def __post_init__(self) -> None:
         if self.samples < 2 or self.largest < 1:
             raise CogmapError("sampling: give 2 samples or more, and largest=1 or more")
-
-    @property
-    def name(self) -> str:
-        """What the engine is called."""
-        return "sampling"
 
     def solve(self, problem: Problem) -> SamplingSolution:
         """Weighted samples of all variables. Raises CogmapError: no sample has a weight above 0."""
