@@ -6,12 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model import Floats, Ints
 from .ground import LEAST_WAYS, Ground, Way
 from .prospects import Prospects
 from .routes import Route
 
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 FORWARD, RIGHT, BACK, LEFT = range(4)

@@ -6,12 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Floats
 from .choices import Choices
 from .fitting import STARTS, Around, Fit, Weights, fit
 from .models import ChoiceModel, Prepared
 
-Floats = NDArray[np.float64]
 FOLDS = 5
 LEVELS = ("hierarchical", "alone", "pooled")
 """Whether each individual is fitted around the group, by itself, or has the parameters of the group."""

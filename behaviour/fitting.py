@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Floats
 from .models import ChoiceModel, Prepared
 
-Floats = NDArray[np.float64]
 STARTS = 3  # points from which a fit sets out, unless told otherwise
 _STEP = 1e-4  # of the differences that make the Hessian, as a share of the width of a parameter's typical range
 _EDGE = 1e-6  # of this width: a parameter so near to a bound is at it

@@ -8,13 +8,10 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Ints
 from .ground import Ground
 from .walks import Walk
-
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)

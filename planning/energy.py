@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Floats
 from .terms import Term
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)

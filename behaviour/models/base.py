@@ -7,11 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import CogmapError
+from ...model import CogmapError, Floats
 from ..choices import Choices
 from ..terms import Parameter, Term
-
-Floats = NDArray[np.float64]
 
 LAPSES = (1.5, 5.0)  # of the Beta prior over the lapse rate
 LAPSE = Parameter(

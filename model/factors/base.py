@@ -6,9 +6,9 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints
 from ..changes import Changes, Store
 from ..dirichlet import SparseDirichlet
 from ..errors import CogmapError
@@ -18,9 +18,6 @@ from ..motions import Motions
 from ..percept import Percept
 from ..rates import Priors, Rates
 from ..visits import Visits
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)

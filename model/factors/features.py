@@ -113,6 +113,7 @@ class Features(Sight):
         return {number: float(told[number]) for number in self.memory.numbers}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, Any], places: int) -> None:
+        """Take over labels, counts and prototypes. Raises CogmapError: not one label a prototype."""
         super().restore(state, arrays, places)
         self.memory.restore({part: arrays[f"{self.memory.name}.{part}"] for part in self.memory.state()})
         if self.memory.count != len(self.labels):

@@ -82,6 +82,7 @@ class Sight(Sensor):
         return {"labels": [encode(label) for label in self.labels]}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
+        """Take over labels and counts. Raises CogmapError: two labels are the same."""
         self.labels.extend(decode(label) for label in state["labels"])
         if len(self.labels) < len(state["labels"]):
             raise CogmapError(f"map: two labels of {self.name} are the same; save it again")

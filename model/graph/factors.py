@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Floats, Ints
 from ..errors import CogmapError
 from .variables import Variable
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+FloatArray, IntArray = Floats, Ints
 
 LARGEST_DENSE = 2**28  # entries of a sparse table that is still written out
 MOST_AXES = 32  # axes of an array that numpy still broadcasts, of the 64 that it has

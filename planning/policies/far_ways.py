@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...model import Floats, Ints
 from ..local import Surroundings
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 FAR = 8  # promising places beyond the look-ahead that a plan takes in, at most
 PROMISING = 0.1  # P(o | s) of a preferred sight from which a place is promising

@@ -6,14 +6,11 @@ import heapq
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
+from ...model import Floats, Ints
 from ..local import Frontier, Surroundings
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 STEPS, METRES = "steps", "metres"
 BY = (STEPS, METRES)
