@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .changes import STEPS, Change, Changes, Entry, Store
+from .changes import Change, Changes, Entry, Store
 from .cognitive_map import CognitiveMap
 from .column import Column
 from .dirichlet import EMPTY, SparseDirichlet
@@ -102,7 +102,6 @@ __all__ = [
     "PAPER_RATES",
     "POSES",
     "SENSORS",
-    "STEPS",
     "TABLE_RATES",
     "TEXT_RATES",
     "UNKNOWN",
