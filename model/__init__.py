@@ -1,7 +1,7 @@
 """What an agent believes: the generative model as a list of factors, its log of changes, growth, the graph language."""
 
 from .arrays import Floats, Ints
-from .changes import STEPS, Change, Changes, Entry, Store
+from .changes import Change, Changes, Entry, Store
 from .cognitive_map import CognitiveMap
 from .column import Column
 from .dirichlet import EMPTY, SparseDirichlet
@@ -91,7 +91,7 @@ from .updates import ParameterUpdate, updates
 
 __all__ = [
     "BLOCKED", "ELSEWHERE", "EMPTY", "GROWTHS", "KINDS", "LEAST", "OPEN", "OUTCOMES", "PAPER_RATES", "POSES", "SENSORS",
-    "STEPS", "TABLE_RATES", "TEXT_RATES", "UNKNOWN", "UNSEEN", "AllEvidence", "Bearings", "Before", "Change", "Changes",
+    "TABLE_RATES", "TEXT_RATES", "UNKNOWN", "UNSEEN", "AllEvidence", "Bearings", "Before", "Change", "Changes",
     "CogmapError", "CognitiveMap", "Column", "ConditionalTable", "Context", "Contexts", "Displacement", "Domain",
     "Entry", "Evidence", "Factor", "FactorGraph", "Features", "FloatArray", "Floats", "GenerativeModel", "GrownPlace",
     "Growth", "GrowthDifference", "GrowthEvent", "IntArray", "Ints", "LabelledTable", "Lattice", "LearnableTable",
