@@ -1,7 +1,5 @@
 """The number of places is known beforehand, nothing else (figure on internal map layouts, a)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
