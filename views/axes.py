@@ -1,7 +1,5 @@
 """What the plots share: axes without global state, cells of a grid, text that fits, legends."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypedDict
 
@@ -9,7 +7,10 @@ from ..model import CogmapError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
     from matplotlib.text import Text
+else:  # imported when something is drawn
+    Axes = Figure = Text = Any
 
 Cell = tuple[float, float]
 """Row and column."""
