@@ -73,9 +73,9 @@ def exploration(how: Mapping[str, Any], change: Change) -> None:
         cscg, pose = (short(grid[maze, model]) for model in ("cscg", "cscg_pose"))
         theirs = {model: PAPER[maze, model] for model in ("cogmap", *CSCG)}
         ratio = "–" if line["ratio"] is None else f"{'≥ ' * line['censored']}{line['ratio'].value:.1f}"
-        means = [f"{theirs[model][0]:g}" for model in ("cscg", "cscg_pose")]
+        means = [f"{theirs[model][0]:.1f}" for model in ("cscg", "cscg_pose")]
         beside[maze] = [short(grid[maze, "cogmap"]), cscg, means[0], pose, means[1], ratio]
-        whole = [f"{theirs[model][0]:g} ± {theirs[model][1]:g}" for model in ("cogmap", "cscg", "cscg_pose")]
+        whole = [f"{theirs[model][0]:.1f} ± {theirs[model][1]:g}" for model in ("cogmap", "cscg", "cscg_pose")]
         own = [grid[maze, "oracle"].mean_text().partition(" ")[0], short(grid[maze, "cogmap"])]
         first[maze] = [*own, whole[0], cscg, whole[1], pose, whole[2]]
     change("docs/exploring.md", "| maze | cogmap | CSCG | paper |", beside)
