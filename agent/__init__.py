@@ -13,14 +13,6 @@ from .trace_table import trace_table
 from .turning import TurningAgent
 
 __all__ = [
-    "Agent",
-    "Followed",
-    "GivenPreferences",
-    "Pomdp",
-    "Settings",
-    "StepRecord",
-    "TurningAgent",
-    "follow",
-    "read_header",
+    "Agent", "Followed", "GivenPreferences", "Pomdp", "Settings", "StepRecord", "TurningAgent", "follow", "read_header",
     "trace_table",
-]
+]  # fmt: skip

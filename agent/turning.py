@@ -147,7 +147,7 @@ class TurningAgent(Agent):
             if sensed[name] is UNSEEN:
                 continue
             if name != "open":
-                fits += sensor.log_likelihood(places, sensor.read(sensed[name], step=self.steps))[:, None]
+                fits += sensor.log_likelihood(places, sensor.glance(sensed[name], step=self.steps))[:, None]
                 continue
             for turn in range(4):
                 fits[:, turn] += sensor.log_likelihood(places, self._turned(sensed[name], turn))

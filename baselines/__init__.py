@@ -11,12 +11,6 @@ from .random_walk import RandomAgent
 from .tile_frontier import TileFrontier
 
 __all__ = [
-    "ChartFrontier",
-    "CscgAgent",
-    "CscgSettings",
-    "CueOptimum",
-    "FrontierAgent",
-    "HabitAgent",
-    "RandomAgent",
+    "ChartFrontier", "CscgAgent", "CscgSettings", "CueOptimum", "FrontierAgent", "HabitAgent", "RandomAgent",
     "TileFrontier",
-]
+]  # fmt: skip

@@ -13,26 +13,7 @@ from .settings import CscgSettings
 from .viterbi import HardFit, most_probable_path, viterbi_training
 
 __all__ = [
-    "Bridge",
-    "CloneModel",
-    "CscgAgent",
-    "CscgSettings",
-    "Fit",
-    "HardFit",
-    "Posterior",
-    "Roads",
-    "Triples",
-    "Walk",
-    "baum_welch",
-    "bridge",
-    "empty_model",
-    "filtered",
-    "followed",
-    "log_likelihood",
-    "log_prior",
-    "most_probable_path",
-    "posterior",
-    "room_transitions",
-    "sprinkled",
-    "viterbi_training",
-]
+    "Bridge", "CloneModel", "CscgAgent", "CscgSettings", "Fit", "HardFit", "Posterior", "Roads", "Triples", "Walk",
+    "baum_welch", "bridge", "empty_model", "filtered", "followed", "log_likelihood", "log_prior", "most_probable_path",
+    "posterior", "room_transitions", "sprinkled", "viterbi_training",
+]  # fmt: skip

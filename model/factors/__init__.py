@@ -23,29 +23,7 @@ SENSORS: dict[str, type[Sensor]] = {
 """Kinds of sensors by name."""
 
 __all__ = [
-    "BLOCKED",
-    "ELSEWHERE",
-    "OPEN",
-    "POSES",
-    "SENSORS",
-    "UNKNOWN",
-    "Ahead",
-    "Bearings",
-    "Context",
-    "Contexts",
-    "Displacement",
-    "Features",
-    "Lattice",
-    "ModelFactor",
-    "NoPose",
-    "Plane",
-    "Pose",
-    "Sensor",
-    "Sight",
-    "Successors",
-    "Support",
-    "Table",
-    "Transition",
-    "Ways",
-    "parts_of",
-]
+    "BLOCKED", "ELSEWHERE", "OPEN", "POSES", "SENSORS", "UNKNOWN", "Ahead", "Bearings", "Context", "Contexts",
+    "Displacement", "Features", "Lattice", "ModelFactor", "NoPose", "Plane", "Pose", "Sensor", "Sight", "Successors",
+    "Support", "Table", "Transition", "Ways", "parts_of",
+]  # fmt: skip

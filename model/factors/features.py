@@ -115,6 +115,12 @@ class Features(Sight):
         likely = np.flatnonzero(told >= NEGLIGIBLE).tolist()
         return likely[0] if len(likely) == 1 else {number: float(told[number]) for number in likely}
 
+    def glance(self, checked: Any, *, step: int) -> Reading:
+        """Likelihoods of the prototypes that there are, beside which something new may fit better."""
+        known, new = self.memory.log_likelihoods(checked)
+        told = np.exp(known - max(known.max(initial=new), new))
+        return {number: float(told[number]) for number in self.memory.numbers}
+
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, Any], places: int) -> None:
         """Take over labels, counts and prototypes.
 

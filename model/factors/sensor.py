@@ -68,6 +68,10 @@ class Sensor(ModelFactor):
         """The reading that a checked value is; domains grow with what was never sensed before."""
         return checked
 
+    def glance(self, checked: Any, *, step: int) -> Any:
+        """The same reading, of a value that is not to be learned from: it will be read later, or never."""
+        return self.read(checked, step=step)
+
     def label(self, reading: Any) -> Hashable:
         """The reading as the graph shows it."""
         return reading

@@ -12,25 +12,7 @@ from .template import Before, Template, before
 from .variables import Variable
 
 __all__ = [
-    "AllEvidence",
-    "Before",
-    "ConditionalTable",
-    "Evidence",
-    "Factor",
-    "FactorGraph",
-    "FloatArray",
-    "GraphStructure",
-    "IntArray",
-    "LabelledTable",
-    "LearnableTable",
-    "SparseValues",
-    "Template",
-    "Variable",
-    "before",
-    "equation",
-    "labelled",
-    "log_bounds",
-    "quoted",
-    "sparse_values",
-    "table",
-]
+    "AllEvidence", "Before", "ConditionalTable", "Evidence", "Factor", "FactorGraph", "FloatArray", "GraphStructure",
+    "IntArray", "LabelledTable", "LearnableTable", "SparseValues", "Template", "Variable", "before", "equation",
+    "labelled", "log_bounds", "quoted", "sparse_values", "table",
+]  # fmt: skip

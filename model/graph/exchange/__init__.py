@@ -17,18 +17,9 @@ from .uai import read_uai, read_uai_evidence, write_uai, write_uai_evidence
 from .xmlbif import read_xmlbif, write_xmlbif
 
 __all__ = [
-    "load_graph",
-    "read_bif",
-    "read_uai",
-    "read_uai_evidence",
-    "read_xmlbif",
-    "save_graph",
-    "write_bif",
-    "write_graphml",
-    "write_uai",
-    "write_uai_evidence",
-    "write_xmlbif",
-]
+    "load_graph", "read_bif", "read_uai", "read_uai_evidence", "read_xmlbif", "save_graph", "write_bif",
+    "write_graphml", "write_uai", "write_uai_evidence", "write_xmlbif",
+]  # fmt: skip
 
 T = TypeVar("T")
 
