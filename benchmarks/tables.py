@@ -4,9 +4,9 @@
     python benchmarks/tables.py kidnap navigate --jobs 2
     python benchmarks/tables.py mice --jobs 2
 
-Only the cells of measured rows are written; what a page says of them in words is printed, to be read beside it. `--all`
-makes everything but `mice`, which needs recordings and more than an hour. With `--keep DIR` finished runs of `exploration` and
-`rooms` are kept there, and the same command goes on from them.
+Only the cells of measured rows are written; what a page says of them in words is printed, to be read beside it.
+`--all` makes everything but `mice`, which needs recordings and more than an hour. `--keep DIR` keeps finished runs of
+`exploration` and `rooms` there, and the same command goes on from them.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Random walks, two hundred with --study: small mazes that change, silent moves, lies; what must hold after every step."""
+"""Random walks, 200 with --study: small mazes that change, silent moves, lies; what must hold after every step."""
 
 from __future__ import annotations
 

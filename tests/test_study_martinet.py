@@ -21,7 +21,7 @@ pytestmark = pytest.mark.xdist_group("martinet")  # what is walked once is read 
 
 @pytest.fixture(scope="module")
 def rows() -> list[Any]:
-    return SMALL.rows(1)
+    return SMALL.rows(2)
 
 
 def made(rows: list[Any], *routes: int | None, condition: str = "A closed", day: int = 2) -> Any:
