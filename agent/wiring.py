@@ -1,7 +1,5 @@
 """What an agent is wired of, and what it says of itself."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any

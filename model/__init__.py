@@ -1,7 +1,6 @@
 """What an agent believes: the generative model as a list of factors, its log of changes, growth, the graph language."""
 
-from __future__ import annotations
-
+from .arrays import Floats, Ints
 from .changes import Change, Changes, Entry, Store
 from .cognitive_map import CognitiveMap
 from .column import Column
@@ -94,11 +93,11 @@ __all__ = [
     "BLOCKED", "ELSEWHERE", "EMPTY", "GROWTHS", "KINDS", "LEAST", "OPEN", "OUTCOMES", "PAPER_RATES", "POSES", "SENSORS",
     "TABLE_RATES", "TEXT_RATES", "UNKNOWN", "UNSEEN", "AllEvidence", "Bearings", "Before", "Change", "Changes",
     "CogmapError", "CognitiveMap", "Column", "ConditionalTable", "Context", "Contexts", "Displacement", "Domain",
-    "Entry", "Evidence", "Factor", "FactorGraph", "Features", "FloatArray", "GenerativeModel", "GrownPlace", "Growth",
-    "GrowthDifference", "GrowthEvent", "IntArray", "LabelledTable", "Lattice", "LearnableTable", "ModelFactor",
-    "MotionSpec", "Motions", "NoPose", "ObservedGrowth", "Outcome", "ParameterUpdate", "Percept", "Periods", "Plane",
-    "Pose", "Position", "PredictedGrowth", "Priors", "Rates", "Savepoint", "Sensor", "Sight", "Slice",
-    "SparseDirichlet", "SparseValues", "StaticGrowth", "Store", "Successors", "Support", "Table", "Template",
+    "Entry", "Evidence", "Factor", "FactorGraph", "Features", "FloatArray", "Floats", "GenerativeModel", "GrownPlace",
+    "Growth", "GrowthDifference", "GrowthEvent", "IntArray", "Ints", "LabelledTable", "Lattice", "LearnableTable",
+    "ModelFactor", "MotionSpec", "Motions", "NoPose", "ObservedGrowth", "Outcome", "ParameterUpdate", "Percept",
+    "Periods", "Plane", "Pose", "Position", "PredictedGrowth", "Priors", "Rates", "Savepoint", "Sensor", "Sight",
+    "Slice", "SparseDirichlet", "SparseValues", "StaticGrowth", "Store", "Successors", "Support", "Table", "Template",
     "Transition", "Unseen", "Variable", "Ways", "Whereabouts", "before", "check_folder", "check_size", "check_values",
     "check_writable", "count_values", "counts_of", "decode", "dirichlet_information", "distinct", "encode", "equation",
     "go_back", "growth_between", "growth_table", "how_known", "html_table", "identity", "is_number", "labelled",

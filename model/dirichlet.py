@@ -11,11 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .changes import Change, Changes
 from .errors import CogmapError
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 EMPTY = -2
 """Key of an unused slot."""

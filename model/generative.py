@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .changes import Change, Changes, Store
 from .dirichlet import SparseDirichlet
 from .errors import CogmapError
@@ -19,9 +20,6 @@ from .motions import Motions, Position
 from .percept import Percept
 from .rates import Priors, Rates
 from .visits import Visits
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 class GenerativeModel:
