@@ -16,7 +16,7 @@ from .routes import distances, route
 from .vocabulary import vocabulary
 from .whereabouts import FORWARD, LEFT, NOTHING, RIGHT, SURE, UP, Whereabouts, moved
 
-_LOOKS, _TRIES, _PATIENCE, _ASTRAY = 40, 400, 12, 40
+_LOOKS, _TRIES, _PATIENCE = 40, 400, 12
 _LOST, _LOST_IN_NOISE = 13.0, 20.0
 """Nats by which the best pose must be worse than one of which nothing is known, for nothing that was expected to be
 seen; in noise three tiles may have been misread."""
@@ -58,7 +58,7 @@ class MiniGridBody:
         self._given_up: set[mg.Tile] = set()
         self._far, self._walked = _PASSAGE, 1
         self.steps, self.ended, self.reward = 0, False, 0.0
-        self._confused, self._unsure, self._odd = False, 0, 0
+        self._confused, self._odd = False, 0
 
     @property
     def pose(self) -> Pose:
@@ -219,9 +219,8 @@ class MiniGridBody:
         view, meant = self._eyes.look(observation["image"]), moved(self.pose, action, self._known)
         limit = _LOST_IN_NOISE if self._eyes.noise else _LOST
         self._where.update(action, view, most=limit)
-        self._unsure = 0 if self._where.certainty >= SURE else self._unsure + 1
         self._odd = self._odd + 1 if self._where.misfit > limit else 0
-        if self._odd > (self._eyes.noise > 0.0) or self._unsure > _ASTRAY:  # one blurred look may be wrong
+        if self._odd > (self._eyes.noise > 0.0):  # one blurred look may be wrong
             self._anew(observation, meant[2])  # which way it faces may be the same still
             self._confused = True
 
@@ -229,7 +228,7 @@ class MiniGridBody:
         """Nothing is known of where it is, but which way it takes itself to face."""
         known = RoomMap()
         known.key = self._known.key
-        self._seed, self._unsure, self._odd, self._confused = (CENTRE, CENTRE), 0, 0, False
+        self._seed, self._odd, self._confused = (CENTRE, CENTRE), 0, False
         self._given_up.clear()
         self._barred.clear()
         self._where.set((*self._seed, heading), known)
@@ -249,7 +248,7 @@ class MiniGridBody:
                 checks += 1
                 self._act(check)
                 continue
-            if here not in room and not self._known.narrow(here) and self._where.certainty >= SURE:
+            if self._where.share(lambda tile, known: tile not in room and not known.narrow(tile)) >= SURE:
                 return "arrived"
             if not exits:
                 exits = self._exits(self._outlook(), way) - left
@@ -276,9 +275,14 @@ class MiniGridBody:
         """How to see which way it faces, before it leaves by the wrong way; None where it knows, or nothing tells."""
         if self._where.straight >= _STRAIGHT:
             return None
-        poses = [*distances(self.pose, self._known, room)]
-        telling = np.flatnonzero(self._where.telling(poses))
-        plan = route(self.pose, self._known, [poses[telling[0]]], within=room) if len(telling) else None
+        steps = distances(self.pose, self._known, room)
+        telling = np.flatnonzero(self._where.telling(steps))
+        spot = [*steps][telling[0]] if len(telling) else None
+        if spot is None:  # nor does what is known tell it: see more
+            unseen = frozenset[mg.Tile]().union(*self._outlook().unknown)
+            found = viewpoint(steps, unseen) if unseen else None
+            spot = None if found is None else found[0]
+        plan = None if spot is None else route(self.pose, self._known, [spot], within=room)
         return plan[0] if plan else None
 
     def _floor(self, room: Collection[mg.Tile]) -> set[mg.Tile]:

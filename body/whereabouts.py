@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +19,7 @@ UP = 3
 """The way a body faces where it wakes up, whatever that is in the world."""
 SURE = 0.7
 """Belief in one pose from which on it counts as known."""
-_KEEP, _FEW = 1e-3, 24
+_KEEP, _FEW = 1e-4, 40
 _TELLING = 3  # tiles that differ, from which on a view tells two beliefs apart
 
 
@@ -122,6 +122,10 @@ class Whereabouts:
         _, self.pose, self.known = self._guesses[0]
         self.certainty = sum(guess.weight for guess in self._guesses if guess.pose == self.pose)
         self.straight = sum(guess.weight for guess in self._guesses if guess.pose[2] == self.pose[2])
+
+    def share(self, true: Callable[[mg.Tile, RoomMap], bool]) -> float:
+        """How probable it is that something is true of where it stands."""
+        return sum(guess.weight for guess in self._guesses if true(guess.pose[:2], guess.known))
 
     def telling(self, poses: Collection[Pose]) -> NDArray[np.bool_]:
         """`[n]` whether what is seen from a pose tells the best guess from the best that faces otherwise."""
