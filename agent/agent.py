@@ -244,8 +244,6 @@ class Agent(Filed):
             revised=state.revised,
         )
         self.trace.append(record)
-        if self._keep is not None and len(self.trace) >= 2 * self._keep:
-            del self.trace[: -self._keep]
         state.action, state.acted = plan.action, True
         return plan.action
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .changes import STEPS, Change, Changes, Entry, Store
+from .changes import Change, Changes, Entry, Store
 from .cognitive_map import CognitiveMap
 from .column import Column
 from .dirichlet import EMPTY, SparseDirichlet
@@ -92,7 +92,7 @@ from .updates import ParameterUpdate, updates
 
 __all__ = [
     "BLOCKED", "ELSEWHERE", "EMPTY", "GROWTHS", "KINDS", "LEAST", "OPEN", "OUTCOMES", "PAPER_RATES", "POSES", "SENSORS",
-    "STEPS", "TABLE_RATES", "TEXT_RATES", "UNKNOWN", "UNSEEN", "AllEvidence", "Bearings", "Before", "Change", "Changes",
+    "TABLE_RATES", "TEXT_RATES", "UNKNOWN", "UNSEEN", "AllEvidence", "Bearings", "Before", "Change", "Changes",
     "CogmapError", "CognitiveMap", "Column", "ConditionalTable", "Context", "Contexts", "Displacement", "Domain",
     "Entry", "Evidence", "Factor", "FactorGraph", "Features", "FloatArray", "GenerativeModel", "GrownPlace", "Growth",
     "GrowthDifference", "GrowthEvent", "IntArray", "LabelledTable", "Lattice", "LearnableTable", "ModelFactor",
