@@ -10,9 +10,9 @@
 WORLDS are the graph files of the folder by name, all of them unless given, and families that are made, another with
 each seed: hall (20x20), office (3 corridors of 8), geometric (100 places, degree 8), labyrinth (1,000 rooms). Seeds
 settle the start, the sights at random, the noise and the agent. Nearest frontier is the mean of 20 draws of its ties
-from the same start; by metres it is told how long ways are that nobody walked, and so is the agent with `--told lengths`.
-`worst` is the worst single start; `beyond` the steps from the last place entered until every way was known as well;
-milliseconds are processor time of a step of agent, world and judge.
+from the same start; by metres it is told how long ways are that nobody walked, and so is the agent with
+`--told lengths`. `worst` is the worst single start; `beyond` the steps from the last place entered until every way was
+known as well; milliseconds are processor time of a step of agent, world and judge.
 """
 
 from __future__ import annotations

@@ -1,13 +1,10 @@
 """The prefix tree of some policies: what they share is rolled out once."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Ints = NDArray[np.int64]
+from ..model import Ints
 
 
 @dataclass(frozen=True, slots=True)

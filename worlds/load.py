@@ -1,7 +1,5 @@
 """Worlds by name or from a file, and their Gymnasium ids."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -67,11 +65,7 @@ def load_world(
 
 
 def world_of(chart: Chart) -> PlaceEnv:
-    """A world whose true map is `chart`.
-
-    Raises:
-        WorldError: neither a `Maze` nor a `Layout`.
-    """
+    """A world whose true map is `chart`. Raises WorldError: neither a `Maze` nor a `Layout`."""
     if isinstance(chart, Maze):
         return MazeEnv(chart)
     if isinstance(chart, Layout):

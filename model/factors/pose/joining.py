@@ -1,7 +1,5 @@
 """Which way of a place is which way of another, and what follows where that turns out to be otherwise."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..base import Floats, Ints
@@ -14,17 +12,10 @@ from .ways_between import ROUGH, between
 LONG = 2.5
 """Standard deviations of the logarithm of lengths above the mean up to which a way that was not walked may be long."""
 
-RADIAN = float(np.pi / 180.0)
-"""A degree."""
-
-SURELY = 2.0
-"""Standard deviations of a position by which a way may miss it."""
-
-TOLD = 0.15
-"""Mean lengths of a way by which it may miss what lies as far ahead as it is told to be long."""
-
-VAGUE = 35.0
-"""Degrees by which it may miss it at most."""
+SURELY = 2.0  # standard deviations of a position by which a way may miss it
+VAGUE = 35.0  # degrees by which it may miss it at most
+RADIAN = float(np.pi / 180.0)  # a degree
+TOLD = 0.15  # mean lengths of a way by which it may miss what lies as far ahead as it is told to be long
 
 
 class Joining:
