@@ -20,7 +20,7 @@ _LOOKS, _TRIES, _PATIENCE = 40, 400, 12
 _LOST, _LOST_IN_NOISE = 13.0, 20.0
 """Nats by which the best pose must be worse than one of which nothing is known, for nothing that was expected to be
 seen; in noise three tiles may have been misread."""
-_STRAIGHT = 0.95  # belief in the way it faces, from which on it leaves a room
+_STRAIGHT = 0.995  # belief in the way it faces, from which on it leaves a room
 _CHECKS = 60  # steps that making sure of that may take
 _AGAIN = 3  # looks that it takes before it gives a way up that it sees, where its eyes are bad
 _PASSAGE = 5.0  # tiles that a passage is expected to have before any was walked
