@@ -45,6 +45,7 @@ class MiniGridBody:
         glance: low-level steps that looking at walls which it has not seen may cost where it arrives.
 
     Attributes:
+        image: what it saw last.
         steps: low-level steps taken.
         ended: whether the world has ended the episode.
         reward: the sum of what it was given.
@@ -216,7 +217,8 @@ class MiniGridBody:
         self._sense(action, observation)
 
     def _sense(self, action: int, observation: Any) -> None:
-        view, meant = self._eyes.look(observation["image"]), moved(self.pose, action, self._known)
+        self.image = observation["image"]
+        view, meant = self._eyes.look(self.image), moved(self.pose, action, self._known)
         limit = _LOST_IN_NOISE if self._eyes.noise else _LOST
         self._where.update(action, view, most=limit)
         self._odd = self._odd + 1 if self._where.misfit > limit else 0
@@ -232,7 +234,8 @@ class MiniGridBody:
         self._given_up.clear()
         self._barred.clear()
         self._where.set((*self._seed, heading), known)
-        known.add(self.pose, self._eyes.look(observation["image"]))
+        self.image = observation["image"]
+        known.add(self.pose, self._eyes.look(self.image))
 
     def _through(self, way: int, limit: int) -> str:
         """Follow the passage of a way to the floor beyond."""
