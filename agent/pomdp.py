@@ -24,7 +24,7 @@ NEARLY = 1e-6  # how far a column may be from adding up to one
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pomdp:
-    """A partially observable Markov decision process of one state, with any number of observations.
+    """A partially observable Markov decision process with one state factor and any number of observations.
 
     Attributes:
         A: of each observation `[O, S]`, P(o | s); columns sum to one.

@@ -17,7 +17,7 @@ from ..planning import Plan
 
 @dataclass(frozen=True, slots=True)
 class GivenPreferences:
-    """Log preferences over all others, in nats (before `goal_weight`); none explores.
+    """Log preferences relative to all other labels, in nats, before `goal_weight`. Empty: the agent only explores.
 
     Attributes:
         sights: by label.

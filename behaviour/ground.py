@@ -31,7 +31,7 @@ class Way:
 
 @dataclass(frozen=True)
 class Ground:
-    """A world as a walk crosses it.
+    """A world as recorded walks cross it.
 
     Attributes:
         name: of the world.

@@ -103,7 +103,7 @@ def most_probable(
 def k_most_probable(
     graph: FactorGraph, count: int, *, evidence: AllEvidence | None = None, memory: float = MEMORY
 ) -> list[MostProbable]:
-    """The `count` most probable assignments, best first; fewer where fewer have a product above 0.
+    """The `count` most probable assignments, best first; fewer if fewer have a positive product.
 
     Raises:
         CogmapError: `count` is below 1, and what `infer` raises.
@@ -125,7 +125,7 @@ def marginal_map(
     evidence: AllEvidence | None = None,
     memory: float = MEMORY,
 ) -> MostProbable:
-    """The most probable assignment of some variables, all others summed out. For small cases: that can cost much.
+    """The most probable assignment of some variables, with all others summed out. The cost can be high.
 
     Raises:
         CogmapError: no variable is named, and what `infer` raises.

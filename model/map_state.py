@@ -18,7 +18,7 @@ Arrays = dict[str, NDArray[Any]]
 
 
 def map_state(map_: ReadableMap) -> tuple[dict[str, Any], Arrays]:
-    """What every factor has to keep, and the log of growth.
+    """Everything of a map that a file has to keep: the state of every factor, and the growth log.
 
     Raises:
         CogmapError: a label cannot be written as JSON.

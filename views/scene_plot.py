@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """What is seen from above.
+    """A picture of a world from above.
 
     Attributes:
         image: `[height, width, 3]` RGB.

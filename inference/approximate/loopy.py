@@ -61,7 +61,7 @@ class Loopy:
 
 @dataclass(frozen=True, slots=True)
 class LoopyReport:
-    """How loopy belief propagation went.
+    """How loopy belief propagation converged.
 
     Attributes:
         converged: whether it settled; where it did not, its numbers mean little.

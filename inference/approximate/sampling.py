@@ -71,7 +71,7 @@ class Sampling:
 
 @dataclass(frozen=True, slots=True)
 class SamplingReport:
-    """How good the samples are.
+    """How good the weighted samples are.
 
     Attributes:
         samples: number of samples.

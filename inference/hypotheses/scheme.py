@@ -15,7 +15,7 @@ Reading = int | Mapping[int, float] | None
 
 @dataclass(frozen=True, slots=True)
 class WayScheme:
-    """The ways that a place may have.
+    """The ways that a place may have, and which of them undo each other.
 
     Attributes:
         count: how many; a way is an action.
@@ -50,7 +50,7 @@ class WayScheme:
 
 @dataclass(frozen=True, slots=True)
 class Sensed:
-    """What one step brings.
+    """The readings of one step.
 
     Attributes:
         sights: a reading of each sensor.

@@ -24,7 +24,7 @@ UNKNOWN, OPEN, BLOCKED = 0, 1, 2
 
 
 class Transition(ModelFactor):
-    """Row `place * K + action` of the table `B_s` has the places that the action may lead to.
+    """The transitions: row `place * K + action` of the table `B_s` has the places that the action may lead to.
 
     Attributes:
         table: B_s.

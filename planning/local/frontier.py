@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True)
 class Frontier:
-    """The best options, the best first.
+    """The best options, best first.
 
     Attributes:
         paths: the actions of each.
