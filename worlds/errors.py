@@ -1,7 +1,5 @@
 """The one error of the worlds."""
 
-from __future__ import annotations
-
 
 class WorldError(ValueError):
     """Bad input to a world. The message says what is wrong, where, and how to mend it.

@@ -71,9 +71,7 @@ Trace = Annotated[
 
 Told = Annotated[
     str | None,
-    typer.Option(
-        metavar="NAME", help="What a graph tells of a pose: motions, displacement, bearing or none. The most it can."
-    ),
+    typer.Option(metavar="NAME", help="What a graph tells of a pose: motions, displacement, lengths, bearing or none."),
 ]
 View = Annotated[
     str | None, typer.Option(metavar="NAME", help="Of a world of MiniGrid: symbolic (what it is unless given) or rgb.")
