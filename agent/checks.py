@@ -24,8 +24,7 @@ def check_state(state: State, map_: CognitiveMap) -> None:
         CogmapError: it is one.
     """
     actions = len(map_.motions)
-    counted = 0 <= state.begun <= len(map_.changes) and state.steps >= 0
-    if not (counted and (state.belief is not None) == (state.steps > 0) == bool(state.window)):
+    if not (state.steps >= 0 and (state.belief is not None) == (state.steps > 0) == bool(state.window)):
         raise CogmapError("its steps do not go with what it believes")
     if not (_is_action(state.action, actions) and (state.action is not None or not (state.acted and state.steps))):
         raise CogmapError("its last action is none")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from os import PathLike
 from typing import Any, Self
 
@@ -75,7 +76,7 @@ class Filed(Whole):
             "parts": self.parts,
             "rng": self.rng.bit_generator.state,
             "map": map_,
-            "state": pack(self._state, arrays, "state"),
+            "state": pack(replace(self._state, begun=0), arrays, "state"),
         }
         if self._recognising:
             header["recognition"] = self._recognition.state(arrays)

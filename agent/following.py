@@ -1,7 +1,5 @@
 """Along a walk that somebody else made: what the agent would believe, consider and do at each step of it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """What an agent holds possible of its map, to be read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import exp

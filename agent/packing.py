@@ -84,6 +84,6 @@ def unpacked_state(packed: Any, arrays: Mapping[str, NDArray[Any]], map_: Cognit
     state = unpack(packed, arrays)
     if not isinstance(state, State):
         raise CogmapError("there is no state of an agent")
-    state.window = deque(state.window, maxlen=window + 1)
+    state.window, state.begun = deque(state.window, maxlen=window + 1), 0
     check_state(state, map_)
     return state

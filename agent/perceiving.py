@@ -1,7 +1,5 @@
 """Observations, checked before anything believes them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import Any

@@ -8,21 +8,18 @@ from string import ascii_lowercase
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError, FactorGraph, Motions, NoPose, Sight
+from ..model import CogmapError, FactorGraph, Floats, Motions, NoPose, Sight
 from .agent import Agent
 
 if TYPE_CHECKING:
     import networkx as nx
 
-Floats = NDArray[np.float64]
 
 ELSEWHERE = "elsewhere"
 """The state of an agent's matrices that is no place of its map."""
 
-NEARLY = 1e-6
-"""How far a column may be from adding up to one."""
+NEARLY = 1e-6  # how far a column may be from adding up to one
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -34,9 +34,7 @@ def from_schema_2(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]])
     new |= {f"{name}.values": arrays[f"map.{name}"] for name in ("sensed", "walked")}
     growth = np.pad(arrays["growth"], ((0, 0), (0, 1)), constant_values=-1)
     growth[growth[:, 1] == 1, 6] = 0  # a label of the first sensor
-    rows, first, marks, undone = np.zeros((0, 9)), np.zeros(1), np.zeros(0), np.zeros((0, 2))
-    new |= {"growth": growth, "changes.rows": rows, "changes.first": first.astype(np.int64)}
-    new |= {"changes.marks": marks.astype(np.int64), "changes.undone": undone.astype(np.int64)}
+    new["growth"] = growth
     factors = {"displacement": {}, "transition": {}, "pose": {"positions": header["positions"]}, "open": {}}
     places, growth, policies, beam, choice = (settings.pop(name) for name in _PARTS)
     options = {"places": places} if growth == "static" else {}

@@ -98,11 +98,7 @@ class Settings:
 
     @classmethod
     def from_dict(cls, values: dict[str, Any]) -> Settings:
-        """The settings that `to_dict` gave.
-
-        Raises:
-            CogmapError: a name is unknown.
-        """
+        """The settings that `to_dict` gave. Raises CogmapError: a name is unknown."""
         given = _known(cls, values)
         for name, kind in _NESTED.items():
             if given.get(name) is not None:

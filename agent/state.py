@@ -72,7 +72,7 @@ class State:
         preferences: what it prefers now.
         choice: its last choice.
         percept: what the last step brought; None before the first, and where an early version wrote the file.
-        begun: where the log of changes was when the present step began.
+        begun: where the log of changes was when the present step began; 0 in a file, which has no log.
         revised: whether it changed its mind at the present step: the map, or where it is in it.
         told: it was told that it was moved, since the last step.
         expected: by sensor, what was expected of it at the last step; None where nobody has asked yet.

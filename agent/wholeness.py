@@ -90,6 +90,8 @@ class Whole(Wired):
             result = work()
             self._torn = None
             release(map_)
+            if self._keep is not None and len(self.trace) >= 2 * self._keep:
+                del self.trace[: -self._keep]
             return result
         except BaseException as error:
             if self._torn is not None:

@@ -1,7 +1,5 @@
 """What an agent is wired of, and what it says of itself."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
@@ -10,7 +8,6 @@ import numpy as np
 
 from ..inference import Belief, RateOf
 from ..model import (
-    STEPS,
     CogmapError,
     CognitiveMap,
     Contexts,
@@ -109,8 +106,8 @@ class Wired:
     @keep.setter
     def keep(self, steps: int | None) -> None:
         whole = isinstance(steps, int | np.integer) and not isinstance(steps, bool)
-        if steps is not None and not (whole and steps >= STEPS):
-            raise CogmapError(f"agent: keep is {steps!r}; give a whole number of {STEPS} steps or more, or None")
+        if steps is not None and not (whole and steps > 0):
+            raise CogmapError(f"agent: keep is {steps!r}; give a positive whole number of steps, or None")
         self._keep = self.map.growth.keep = steps
 
     @property

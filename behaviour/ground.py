@@ -22,17 +22,11 @@ LEAST_WAYS = 3
 
 @dataclass(frozen=True)
 class Way:
-    """A way of a place.
+    """A way of a place."""
 
-    Attributes:
-        target: the number of the place that it leads to.
-        action: what the agent calls it.
-        bearing: its direction in degrees, clockwise.
-    """
-
-    target: int
-    action: str
-    bearing: float
+    target: int  # the number of the place that it leads to
+    action: str  # what the agent calls it
+    bearing: float  # its direction in degrees, clockwise
 
 
 @dataclass(frozen=True)

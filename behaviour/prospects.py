@@ -19,12 +19,9 @@ Ints = NDArray[np.int32]
 Position = tuple[float, ...]
 LOOK_AHEAD = 6
 """Steps of a policy that are judged, unless told otherwise."""
-HALF = 0.5
-"""Belief below which an agent does not know where it is."""
-OLDEST = 60_000
-"""Steps; what is older counts as that old."""
-SIZE = 100_000
-"""Numbers in the larger arrays of an evaluation; more policies are evaluated in parts."""
+HALF = 0.5  # belief below which an agent does not know where it is
+OLDEST = 60_000  # steps; what is older counts as that old
+SIZE = 100_000  # numbers in the larger arrays of an evaluation; more policies are evaluated in parts
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,19 +56,12 @@ class Prospects:
 
 @dataclass(frozen=True, eq=False)
 class Followings:
-    """How it went along a recorded walk.
+    """How it went along a recorded walk."""
 
-    Attributes:
-        prospects: of its choices.
-        astray: steps at which the agent believed to be elsewhere than it was.
-        entered: places that it has as entered at the end.
-        nodes: places that were entered.
-    """
-
-    prospects: Prospects
-    astray: int
-    entered: int
-    nodes: int
+    prospects: Prospects  # of its choices
+    astray: int  # steps at which the agent believed to be elsewhere than it was
+    entered: int  # places that it has as entered at the end
+    nodes: int  # places that were entered
 
 
 def new_agent(ground: Ground, *, look_ahead: int = LOOK_AHEAD, seed: int = 0) -> Agent:

@@ -1,7 +1,5 @@
 """Recorded walks: who went where, bout by bout."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Iterable, Mapping

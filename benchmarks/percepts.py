@@ -195,7 +195,7 @@ def lake_error(agent: Agent, world: Any) -> float:
                 true[there] = true.get(there, 0.0) + p
             for there, p in true.items():
                 known = here in cell and there in cell
-                found = agent.map.transition(cell[here], cell[there], action) if known else 0.0
+                found = agent.map.transition(cell[there], cell[here], action) if known else 0.0
                 errors.append(abs(found - p))
     return float(np.mean(errors))
 

@@ -16,22 +16,9 @@ if TYPE_CHECKING:
     from .world import GOAL, EmbodiedWorld, embodied
 
 __all__ = [
-    "BODILY",
-    "COLOURS",
-    "GOAL",
-    "OUTCOMES",
-    "Body",
-    "EmbodiedWorld",
-    "Eyes",
-    "MiniGridBody",
-    "Percept",
-    "PixelView",
-    "RegisteredWorld",
-    "View",
-    "embodied",
-    "errand_of",
-    "load_embodied",
-]
+    "BODILY", "COLOURS", "GOAL", "OUTCOMES", "Body", "EmbodiedWorld", "Eyes", "MiniGridBody", "Percept", "PixelView",
+    "RegisteredWorld", "View", "embodied", "errand_of", "load_embodied",
+]  # fmt: skip
 
 _HEAVY = ("errand", "eyes", "minigrid", "registered", "world")
 

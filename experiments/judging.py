@@ -1,7 +1,5 @@
 """What a map is worth beside the truth, whatever its places are called and whether or not they have positions."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -16,8 +14,7 @@ from .running import Moment
 
 BELIEVED = 0.6
 """A true transition counts as known from this probability on."""
-CERTAIN = 0.7
-"""From this probability on an agent counts as certain of a place."""
+CERTAIN = 0.7  # from this probability on an agent counts as certain of a place
 OPEN = 0.5
 """What is imagined behind a way counts as a place of the map if the way is believed to lead there at least so much."""
 

@@ -1,7 +1,5 @@
 """Kidnapping: moved without a word in a known world, how soon does an agent know where it is?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Unpack
@@ -13,8 +11,7 @@ from .records import Record, mean, std
 from .running import Moment
 from .session import Many, Options, Session, World, chart_of, described, head_of, many, set_out
 
-AFTER = 20
-"""Steps that a run goes on after recovery, before the map is checked."""
+AFTER = 20  # steps that a run goes on after recovery, before the map is checked
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,5 @@
 """Navigating: how far does an agent walk to a sight that it prefers, in a world it knows or not?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Required, Unpack, cast

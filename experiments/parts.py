@@ -1,7 +1,5 @@
 """Names to parts: the one place where agents are made by name, for the command line, ledgers and sweeps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, Self

@@ -1,7 +1,5 @@
 """Any agent in any world: the loop that every experiment is built on."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -26,23 +24,14 @@ class Walker(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """A choice that has been made and not been carried out yet.
+    """A choice that has been made and not been carried out yet."""
 
-    Attributes:
-        step: its number, 0 at the first observation.
-        agent: who chose.
-        world: where.
-        observation: what the agent chose after.
-        info: what the world tells of the truth.
-        action: the choice.
-    """
-
-    step: int
-    agent: Walker
-    world: gym.Env[Any, Any]
-    observation: Any
-    info: Mapping[str, Any]
-    action: int
+    step: int  # its number, 0 at the first observation
+    agent: Walker  # who chose
+    world: gym.Env[Any, Any]  # where
+    observation: Any  # what the agent chose after
+    info: Mapping[str, Any]  # what the world tells of the truth
+    action: int  # the choice
 
 
 Watch = Callable[[Moment], object]

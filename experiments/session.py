@@ -1,7 +1,5 @@
 """An agent in a world whose truth is known: set out, exploring, moved without a word."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Executor
 from contextlib import suppress
@@ -163,8 +161,8 @@ def head_of(experiment: str, world: World, **options: Unpack[Options]) -> tuple[
     return head, {"settings": maker.to_dict(chart)}
 
 
-def many(experiment: Callable[..., _Row], world: World, options: Mapping[str, Any]) -> list[_Row]:
-    """Rows of an experiment; `options` are `Many`, and others of the experiment."""
+def many(experiment: Callable[..., _Row], world: World | str, options: Mapping[str, Any]) -> list[_Row]:
+    """Rows of an experiment in a world; `options` are `Many`, and others of the experiment."""
     how = {name: value for name, value in options.items() if name in ("runs", "seed", "executor", "on_done")}
     own = {name: value for name, value in options.items() if name not in how}
     return map_seeds(partial(experiment, world, **own), **how)

@@ -1,7 +1,5 @@
 """Evidence as a person gives it (labels, likelihoods) turned into what engines need (numbers)."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 

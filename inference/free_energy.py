@@ -5,8 +5,6 @@ and the prior R (the rest), with Z_R = Σ_x Π_R f(x). A product of experts such
 directed prior has Z_R = 1. F counts the factors as they are, so log Z_R stands beside the complexity.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 

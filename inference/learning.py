@@ -20,8 +20,7 @@ from .evidence import given
 from .exact import MEMORY, buckets, forward, plan_elimination, reduce, tree_of
 
 METHODS = ("em", "variational")
-CHUNK = 2**27
-"""Bytes of products and messages that rows asked at once should take."""
+CHUNK = 2**27  # bytes of products and messages that rows asked at once should take
 Data = Mapping[str, Sequence[Hashable]] | Sequence[Mapping[str, Hashable]] | Mapping[Variable, Sequence[Hashable]]
 
 
@@ -168,19 +167,12 @@ class _Tables:
 
 @dataclass(frozen=True, slots=True)
 class _Rows:
-    """Data, equal rows together.
+    """Data, equal rows together."""
 
-    Attributes:
-        names: the variables with data.
-        indices: `[rows, names]` indices of labels; -1 where missing.
-        weights: `[rows]` how often each row was seen.
-        first: `[rows]` the first row of the data that is this one.
-    """
-
-    names: Sequence[str]
-    indices: IntArray
-    weights: FloatArray
-    first: IntArray
+    names: Sequence[str]  # the variables with data
+    indices: IntArray  # `[rows, names]` indices of labels; -1 where missing
+    weights: FloatArray  # `[rows]` how often each row was seen
+    first: IntArray  # `[rows]` the first row of the data that is this one
 
     @classmethod
     def of(cls, graph: FactorGraph, data: Data) -> _Rows:

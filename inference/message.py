@@ -6,12 +6,8 @@ from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError, Successors, html_table, is_number
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from ..model import CogmapError, Floats, Ints, Successors, html_table, is_number
 
 
 def _summed(values: Ints, mass: Floats) -> tuple[Ints, Floats]:

@@ -1,7 +1,5 @@
 """What inference returns: posteriors and most probable assignments."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -14,8 +12,7 @@ from .evidence import Given
 from .exact import Solution, entropy
 
 Name = str | Variable
-LARGEST_JOINT = 2**28
-"""Entries of the largest joint that is handed out."""
+LARGEST_JOINT = 2**28  # entries of the largest joint that is handed out
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,5 @@
 """The append-only log of everything that was ever added to a map."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import dataclass
 from typing import Any, Literal

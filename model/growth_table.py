@@ -16,9 +16,7 @@ from .motions import Position
 if TYPE_CHECKING:
     from networkx import DiGraph
 
-Log = GenerativeModel | Sequence[GrowthEvent]
-"""A map, whose actions have names, or a log alone."""
-
+Log = GenerativeModel | Sequence[GrowthEvent]  # A map, whose actions have names, or a log alone
 MOST = 8  # items of one kind that a text lists
 
 

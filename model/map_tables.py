@@ -1,7 +1,5 @@
 """The tables of a map with their labels, as many places of them as are asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 
 import numpy as np
@@ -59,11 +57,7 @@ def _outcomes(map_: ReadableMap, name: str) -> tuple[str, str, Domain | None]:
 
 
 def checked_places(map_: ReadableMap, places: Sequence[int] | None) -> NDArray[np.int64]:
-    """The places asked for, or all.
-
-    Raises:
-        CogmapError: there is no such place.
-    """
+    """The places asked for, or all. Raises CogmapError: there is no such place."""
     if places is None:
         return np.arange(len(map_.places))
     for place in places:
@@ -73,11 +67,7 @@ def checked_places(map_: ReadableMap, places: Sequence[int] | None) -> NDArray[n
 
 
 def action_named(map_: ReadableMap, action: str | int) -> int:
-    """Index of an action given by name or index.
-
-    Raises:
-        CogmapError: there is none.
-    """
+    """Index of an action given by name or index. Raises CogmapError: there is none."""
     names = map_.motions.names
     if isinstance(action, str) and action in names:
         return names.index(action)

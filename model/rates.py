@@ -1,7 +1,5 @@
 """Numbers that learning goes by: concentrations before evidence, and counts that evidence adds."""
 
-from __future__ import annotations
-
 from dataclasses import astuple, dataclass, fields
 
 import numpy as np
@@ -9,8 +7,7 @@ import numpy as np
 from .errors import CogmapError
 
 _TINY, _LARGE = 1e-300, 1e12
-_LEAST_FLOOR = 1e-15
-"""Of doors: one minus less than this is one, and what is certain can never be otherwise."""
+_LEAST_FLOOR = 1e-15  # of doors: one minus less than this is one, and what is certain can never be otherwise
 
 
 def is_number(value: object, least: float, most: float) -> bool:

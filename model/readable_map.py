@@ -1,21 +1,17 @@
 """What is believed of the world, read from the factors."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .dirichlet import SparseDirichlet
 from .domain import Domain
 from .errors import CogmapError
 from .factors import Lattice
 from .generative import GenerativeModel
 from .motions import Position
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 class ReadableMap(GenerativeModel):

@@ -1,21 +1,16 @@
 """The slices of eq. 1 in the language of factor graphs, over the support of the belief."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .distinct import distinct
 from .factors import Successors, Support, Table
 from .generative import GenerativeModel
 from .graph import FactorGraph
 from .percept import Percept
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,7 +1,5 @@
 """What learning has changed, read from the log of changes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

@@ -5,12 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Floats
 from .terms import Term
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +46,7 @@ class ExpectedFreeEnergy:
         return np.array([term.sign for term in self.terms]) @ self.values
 
     def __getitem__(self, name: str) -> Floats:
-        """`[P]` the values of one term.
-
-        Raises:
-            CogmapError: no term has this name.
-        """
+        """`[P]` the values of one term. Raises CogmapError: no term has this name."""
         if name not in self.names:
             raise CogmapError(f"expected free energy: no term is called {name!r}; there are {', '.join(self.names)}")
         return self.values[self.names.index(name)]

@@ -5,19 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ..model import CogmapError, html_table
+from ..model import CogmapError, Floats, Ints, html_table
 from .choices import Choice
 from .energy import ExpectedFreeEnergy
 from .local import LocalModel
 from .policies import PolicyGenerator
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
-SHOWN = 12
-"""Actions of a plan that its text has."""
+SHOWN = 12  # actions of a plan that its text has
 
 
 @dataclass(frozen=True, slots=True)

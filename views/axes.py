@@ -88,11 +88,7 @@ def legend_below(ax: Axes, *, columns: int = 3) -> None:
 
 
 def flat(position: Sequence[float]) -> Cell:
-    """A position in Z or Z² as row and column.
-
-    Raises:
-        CogmapError: it has another number of dimensions.
-    """
+    """A position in Z or Z² as row and column. Raises CogmapError: it has another number of dimensions."""
     if len(position) not in (1, 2):
         raise CogmapError(f"plot: position {tuple(position)} has {len(position)} dimensions; only 1 or 2 can be drawn")
     return float(position[0]) if len(position) == 2 else 0.0, float(position[-1])

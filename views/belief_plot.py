@@ -19,8 +19,7 @@ from .theme import SKY, VERMILION, theme_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Places = Belief | Mapping[int, float]
-"""Q(s) by number of the place: a belief, or the `places` of a step's record."""
+Places = Belief | Mapping[int, float]  # Q(s) by number of the place: a belief, or the `places` of a step's record
 
 TRUE, OTHER = VERMILION, SKY
 HALO = 0.34  # radius of the disc behind a place, cells

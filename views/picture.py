@@ -7,15 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..model import Floats
 from .axes import Cell, cell_points, write_in
 from .theme import Theme, ink_on, mixed, sight_colour, theme_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Floats = NDArray[np.float64]
 Node = Any
 
 RADIUS = 0.24  # of a place, cells

@@ -1,7 +1,5 @@
 """A recorded walk inside of a notebook."""
 
-from __future__ import annotations
-
 import html
 from dataclasses import dataclass
 

@@ -16,9 +16,7 @@ from .theme import BLUE, ORANGE, SKY, VERMILION, theme_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Trace = Sequence[StepRecord]
-"""The agent's records, one a step: `agent.trace`."""
-
+Trace = Sequence[StepRecord]  # the agent's records, one a step: `agent.trace`
 MOVED = 0.5  # P(moved_t) from which a step is marked
 FEW = 60  # steps that have a dot each
 

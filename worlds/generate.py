@@ -122,11 +122,7 @@ def _furnish(name: str, rooms: Iterable[tuple[int, ...]], sights: int | None, rn
 
 
 def at_least(family: str, **sizes: tuple[int, int]) -> None:
-    """Refuse sizes that are too small: each is given with the least it may be.
-
-    Raises:
-        WorldError: one is.
-    """
+    """Refuse sizes that are too small: each is given with the least it may be. Raises WorldError: one is."""
     for what, (size, least) in sizes.items():
         if size < least:
             raise WorldError(f"{family}: {what} is {size}; use at least {least}")

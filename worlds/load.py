@@ -67,11 +67,7 @@ def load_world(
 
 
 def world_of(chart: Chart) -> PlaceEnv:
-    """A world whose true map is `chart`.
-
-    Raises:
-        WorldError: neither a `Maze` nor a `Layout`.
-    """
+    """A world whose true map is `chart`. Raises WorldError: neither a `Maze` nor a `Layout`."""
     if isinstance(chart, Maze):
         return MazeEnv(chart)
     if isinstance(chart, Layout):

@@ -79,11 +79,7 @@ class Maze:
         return {(row, column): (float(column), -float(row)) for row, column in self.rooms}
 
     def find(self, place: Any) -> Position:
-        """`place` as a room of this maze.
-
-        Raises:
-            WorldError: no such room.
-        """
+        """`place` as a room of this maze. Raises WorldError: no such room."""
         try:
             row, column = place
             room = (int(row), int(column))
@@ -94,11 +90,7 @@ class Maze:
         return room
 
     def exits(self, place: Position) -> dict[str, Position | None]:
-        """The room that each action leads to; None where a wall is.
-
-        Raises:
-            WorldError: there is no such room.
-        """
+        """The room that each action leads to; None where a wall is. Raises WorldError: there is no such room."""
         if place not in self.sights:
             raise WorldError(f"maze {self.name!r} has no room at {place}; see maze.rooms")
         row, column = place
@@ -109,11 +101,7 @@ class Maze:
         return found
 
     def successors(self, place: Position) -> dict[str, Position]:
-        """The room that each action leads to; walls lead back.
-
-        Raises:
-            WorldError: there is no such room.
-        """
+        """The room that each action leads to; walls lead back. Raises WorldError: there is no such room."""
         return {name: place if room is None else room for name, room in self.exits(place).items()}
 
     def length(self, place: Position, way: str) -> float:

@@ -148,11 +148,7 @@ def offered(world: Any, kind: type[Offer], what: str) -> Offer:
 
 
 def place_of(info: Mapping[str, Any]) -> Place:
-    """The true place of the agent in the `info` of a step.
-
-    Raises:
-        WorldError: it is not told.
-    """
+    """The true place of the agent in the `info` of a step. Raises WorldError: it is not told."""
     for key in ("place", "position"):
         if key in info:
             return info[key]

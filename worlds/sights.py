@@ -8,8 +8,7 @@ import numpy as np
 
 from .errors import WorldError
 
-Sights = int | str
-"""`"distinct"`, each place its own; `"ways"`, the number of ways; or K, one of K at random."""
+Sights = int | str  # `"distinct"`, each place its own; `"ways"`, the number of ways; or K, one of K at random
 
 
 def give_sights(

@@ -1,18 +1,13 @@
 """What a term of a choice model is: its parameters, and what it adds to the log weight of each way."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...model import CogmapError
+from ...model import CogmapError, Floats
 from ..choices import Choices
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

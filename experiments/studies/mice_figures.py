@@ -1,7 +1,5 @@
 """Figures of the study `mice`."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 

@@ -18,8 +18,7 @@ from ...model import CogmapError, Factor, FloatArray, IntArray
 from ..errors import impossible
 from ..exact import Problem, Solution, in_logs
 
-ZERO = -1e8
-"""Stands for log 0."""
+ZERO = -1e8  # stands for log 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +34,7 @@ class Loopy:
         CogmapError: an option is out of its range.
     """
 
+    name: ClassVar[str] = "loopy"  # of the engine
     damping: float = 0.5
     iterations: int = 2000
     tolerance: float = 1e-9
@@ -42,11 +42,6 @@ class Loopy:
     def __post_init__(self) -> None:
         if not (0 <= self.damping < 1 and self.iterations >= 1 and self.tolerance > 0):
             raise CogmapError("loopy: give damping in [0, 1), 1 iteration or more, and a tolerance above 0")
-
-    @property
-    def name(self) -> str:
-        """What the engine is called."""
-        return "loopy"
 
     def solve(self, problem: Problem) -> LoopySolution:
         """Beliefs of all nodes and tables.
@@ -87,23 +82,14 @@ class LoopyReport:
 
 @dataclass(frozen=True, slots=True)
 class LoopySolution(Solution):
-    """Beliefs of nodes and tables.
+    """Beliefs of nodes and tables."""
 
-    Attributes:
-        problem: what was asked.
-        report: how it went.
-        nodes: `[cardinality]` belief of each node.
-        scopes: nodes of each table of several nodes.
-        tables: belief of each of these.
-        log_evidence: minus Bethe's free energy; neither a bound nor exact, but on trees.
-    """
-
-    problem: Problem
-    report: LoopyReport
-    nodes: Sequence[FloatArray]
-    scopes: Sequence[tuple[int, ...]]
-    tables: Sequence[FloatArray]
-    log_evidence: float
+    problem: Problem  # what was asked
+    report: LoopyReport  # how it went
+    nodes: Sequence[FloatArray]  # `[cardinality]` belief of each node
+    scopes: Sequence[tuple[int, ...]]  # nodes of each table of several nodes
+    tables: Sequence[FloatArray]  # belief of each of these
+    log_evidence: float  # minus Bethe's free energy; neither a bound nor exact, but on trees
     instead: ClassVar[str] = "use an exact engine, or engine='sampling'"
 
     def joint(self, names: Sequence[str]) -> FloatArray:
@@ -121,18 +107,9 @@ class LoopySolution(Solution):
         )
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """Of a large sparse factor the entries that agree with the evidence, and the belief of each; else None."""
-        if factor.label not in self.problem.entries:
-            return None
-        (node, mapping), rows = self.problem.entries[factor.label]
-        assert node is not None
-        p = self.nodes[node]
-        if mapping is None:
-            return rows, p
-        return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
+        return self.problem.listed(factor, self.nodes.__getitem__)
 
     def standard_error(self, names: Sequence[str]) -> FloatArray:
-        """Not known."""
         raise CogmapError(f"loopy: how far its marginals are off is not known; {self.instead}")
 
 

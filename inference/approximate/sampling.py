@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -33,6 +34,7 @@ class Sampling:
         CogmapError: an option is out of its range.
     """
 
+    name: ClassVar[str] = "sampling"  # of the engine
     samples: int = 10_000
     seed: int = 0
     largest: float = 2e4
@@ -41,17 +43,8 @@ class Sampling:
         if self.samples < 2 or self.largest < 1:
             raise CogmapError("sampling: give 2 samples or more, and largest=1 or more")
 
-    @property
-    def name(self) -> str:
-        """What the engine is called."""
-        return "sampling"
-
     def solve(self, problem: Problem) -> SamplingSolution:
-        """Weighted samples of all variables.
-
-        Raises:
-            CogmapError: no sample has a weight above 0.
-        """
+        """Weighted samples of all variables. Raises CogmapError: no sample has a weight above 0."""
         rng = np.random.default_rng(self.seed)
         order = plan_elimination(problem, memory=math.inf).order
         parts, log_bound = _parts(problem, order, self.largest)
@@ -100,24 +93,15 @@ class SamplingReport:
 
 @dataclass(frozen=True, slots=True)
 class SamplingSolution(Solution):
-    """Weighted samples.
+    """Weighted samples."""
 
-    Attributes:
-        problem: what was asked.
-        report: how good the samples are.
-        drawn: `[variables, samples]` indices of labels.
-        weights: `[samples]`, summing to 1.
-        log_evidence: log of the mean weight; Z itself is estimated without bias.
-    """
-
-    problem: Problem
-    report: SamplingReport
-    drawn: IntArray
-    weights: FloatArray
-    log_evidence: float
+    problem: Problem  # what was asked
+    report: SamplingReport  # how good the samples are
+    drawn: IntArray  # `[variables, samples]` indices of labels
+    weights: FloatArray  # `[samples]`, summing to 1
+    log_evidence: float  # log of the mean weight; Z itself is estimated without bias
 
     def joint(self, names: Sequence[str]) -> FloatArray:
-        """Estimate of P(names | evidence), one axis a name."""
         return self._counted(names, self.weights)
 
     def standard_error(self, names: Sequence[str]) -> FloatArray:

@@ -1,7 +1,5 @@
 """The backward pass: from P(x_i | S_i) of every bucket to its belief P(x_i, S_i), and what is read off beliefs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -91,15 +89,7 @@ class BucketTree(Solution):
         return self.over[at]
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
-        if factor.label not in self.plan.problem.entries:
-            return None
-        (node, mapping), rows = self.plan.problem.entries[factor.label]
-        assert node is not None
-        p = self.nodes((node,))
-        if mapping is None:
-            return rows, p
-        return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
+        return self.plan.problem.listed(factor, lambda node: self.nodes((node,)))
 
     def entropy(self) -> float:
         """H = Σ_i H(x_i, S_i) - H(S_i), in nats."""

@@ -5,8 +5,6 @@ bucket of the next node to leave. What is known is sliced out of the tables firs
 is observed, and a second pass makes anew only what hangs on tables that have changed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,9 +1,7 @@
 """A graph and its evidence, reduced to what an engine has to sum over."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,8 +12,7 @@ from ..evidence import Given
 from .substitution import Scope, substitute
 from .tables import Table
 
-DENSE = 2**16
-"""Entries up to which a sparse factor is written out."""
+DENSE = 2**16  # entries up to which a sparse factor is written out
 
 Where = tuple[int | None, IntArray | int | None]
 
@@ -78,6 +75,17 @@ class Problem:
         size = math.prod(shape)
         counted = np.bincount(flat.ravel(), weights=joint.ravel(), minlength=size)
         return np.asarray(counted, dtype=np.float64).reshape(shape)
+
+    def listed(self, factor: Factor, marginal: Callable[[int], FloatArray]) -> tuple[IntArray, FloatArray] | None:
+        """Of a large sparse factor the entries that are possible, and P of each, from that of its node; else None."""
+        if factor.label not in self.entries:
+            return None
+        (node, mapping), rows = self.entries[factor.label]
+        assert node is not None
+        p = marginal(node)
+        if mapping is not None:
+            p = np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
+        return rows, p
 
     def nodes(self, names: Sequence[str]) -> tuple[int, ...]:
         """The nodes that carry `names`, each once, in order of appearance."""

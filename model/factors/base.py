@@ -6,9 +6,9 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints
 from ..changes import Changes, Store
 from ..dirichlet import SparseDirichlet
 from ..errors import CogmapError
@@ -18,9 +18,6 @@ from ..motions import Motions
 from ..percept import Percept
 from ..rates import Priors, Rates
 from ..visits import Visits
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,22 +143,14 @@ class ModelFactor:
     _context: Context | None = None
 
     def attach(self, context: Context) -> None:
-        """Make it part of a model.
-
-        Raises:
-            CogmapError: it is part of one already.
-        """
+        """Make it part of a model. Raises CogmapError: it is part of one already."""
         if self._context is not None:
             raise CogmapError(f"{self.name}: this {type(self).__name__} belongs to another agent; make one for each")
         self._context = context
 
     @property
     def context(self) -> Context:
-        """What it shares with the other factors of its model.
-
-        Raises:
-            CogmapError: it belongs to no model yet.
-        """
+        """What it shares with the other factors of its model. Raises CogmapError: it belongs to no model yet."""
         if self._context is None:
             raise CogmapError(f"{self.name}: it belongs to no model yet; give it to an Agent or a CognitiveMap")
         return self._context

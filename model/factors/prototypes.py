@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from math import inf, log, sqrt
 from typing import Any
 
@@ -222,13 +222,6 @@ class Prototypes:
 
     def put(self, where: Any, value: Any) -> None:
         """Nothing: no change of it is logged."""
-
-    def value(self, numbers: Sequence[float]) -> None:
-        """Nothing."""
-
-    def fits(self, where: Any, value: Any, places: int) -> bool:
-        """Never: no change of it is logged."""
-        return False
 
     def savepoint(self) -> dict[str, NDArray[Any]]:
         """All that it knows."""

@@ -1,7 +1,5 @@
 """P(s' | s, a): where the ways of a place lead, as Dirichlet counts B_s."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from functools import partial
 from typing import Any
@@ -19,8 +17,7 @@ from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table
 ELSEWHERE = -1
 """Successor that is no place of the map yet."""
 
-UNSURE = 0.1
-"""P(open) and P(blocked) from which on it is open whether a way is open."""
+UNSURE = 0.1  # P(open) and P(blocked) from which on it is open whether a way is open
 
 UNKNOWN, OPEN, BLOCKED = 0, 1, 2
 """What was last sensed of a door."""
@@ -38,7 +35,6 @@ class Transition(ModelFactor):
     name = "transition"
 
     def attach(self, context: Context) -> None:
-        """Make it part of a model."""
         super().attach(context)
         size, log = len(context.motions), context.changes
         self.motions, self.rates = context.motions, context.rates
@@ -48,7 +44,6 @@ class Transition(ModelFactor):
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """B_s, and what is noted of the doors."""
         return self.table, self.sensed, self.walked
 
     def grow(self, places: int) -> None:
@@ -74,11 +69,7 @@ class Transition(ModelFactor):
             self.walked.set((place, action), False)
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
-        """Take over the arrays.
-
-        Raises:
-            CogmapError: an action leads nowhere, not even back.
-        """
+        """Take over the arrays. Raises CogmapError: an action leads nowhere, not even back."""
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=places, least=ELSEWHERE)
         keys, alpha, _ = self.table.concentration(np.arange(places * len(self.motions)))

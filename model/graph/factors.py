@@ -1,27 +1,22 @@
 """Factors: non-negative functions of named discrete variables, dense or sparse."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Floats, Ints
 from ..errors import CogmapError
 from .variables import Variable
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+FloatArray, IntArray = Floats, Ints
 
-LARGEST_DENSE = 2**28
-"""Entries of a sparse table that is still written out."""
-MOST_AXES = 32
-"""Axes of an array that numpy still broadcasts, of the 64 that it has."""
-NORMALISED = 1e-12
-"""How far the sums of a conditional may be from 1."""
+LARGEST_DENSE = 2**28  # entries of a sparse table that is still written out
+MOST_AXES = 32  # axes of an array that numpy still broadcasts, of the 64 that it has
+NORMALISED = 1e-12  # how far the sums of a conditional may be from 1
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,7 +1,5 @@
 """Discrete variables with labelled domains."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import cast

@@ -12,5 +12,4 @@ class ObservedGrowth(Growth):
     name = "observed"
 
     def enter(self, map_: GenerativeModel, belief: Whereabouts, action: int, *, step: int) -> list[int]:
-        """The place behind the door that was taken."""
         return place_beyond(map_, belief.place, action, step=step)

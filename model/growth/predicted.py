@@ -14,7 +14,6 @@ class PredictedGrowth(Growth):
     name = "predicted"
 
     def look(self, map_: GenerativeModel, belief: Whereabouts, open_: Sequence[bool], *, step: int) -> list[int]:
-        """The places behind all open doors that the map has no place for."""
         here = belief.place
         return [
             place

@@ -10,8 +10,7 @@ from ..errors import CogmapError
 from ..generative import GenerativeModel
 from .base import Growth, Whereabouts
 
-MOST = 10_000_000
-"""Places that can be known beforehand."""
+MOST = 10_000_000  # places that can be known beforehand
 
 
 class StaticGrowth(Growth):
@@ -36,15 +35,10 @@ class StaticGrowth(Growth):
 
     @property
     def options(self) -> dict[str, Any]:
-        """How many places."""
         return {"places": self.places}
 
     def begin(self, map_: GenerativeModel, *, step: int) -> list[int]:
-        """All places; the first is where the agent wakes up.
-
-        Raises:
-            CogmapError: places have no positions.
-        """
+        """All places; the first is where the agent wakes up. Raises CogmapError: places have no positions."""
         origin = map_.pose.origin
         if origin is None:
             raise CogmapError("growth: static growth tells places apart by their positions; give the agent a Lattice()")

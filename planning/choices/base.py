@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...model import Floats, Ints
 from ..local import LocalModel
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 TIE = 1e-3
 """Nats; policies closer than this are equally good: at a precision of 16 their odds are 1.016 to 1."""

@@ -19,12 +19,9 @@ from .structure import MapHypotheses, Structure
 from .transitions import Transitions, likeliest
 from .view import MapView
 
-FEW = 128
-"""Places up to which what their ways would tell of each is asked: the work is the square of their number."""
-SURE = 0.5
-"""Belief in one place from which on an agent explores by options from there."""
-HOPE = 0.4
-"""P(a way that is worth a try leads beyond) from which on plans count on it."""
+FEW = 128  # places up to which what their ways would tell of each is asked: the work is the square of their number
+SURE = 0.5  # belief in one place from which on an agent explores by options from there
+HOPE = 0.4  # P(a way that is worth a try leads beyond) from which on plans count on it
 
 
 @dataclass(frozen=True, slots=True)

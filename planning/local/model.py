@@ -9,14 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import CogmapError, Motions
+from ...model import CogmapError, Floats, Ints, Motions
 from .frontier import Frontier
 from .kept import Kept
 from .structure import Structure
 from .transitions import Transitions
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,5 +190,4 @@ def _need(fine: bool | np.bool_, what: str, remedy: str) -> None:
         raise CogmapError(f"local model: {what}; give {remedy}")
 
 
-_A_PLACE = ("places", "belief", "log_C_place", "blocked", "entered", "position")
-"""Tables with a row a place."""
+_A_PLACE = ("places", "belief", "log_C_place", "blocked", "entered", "position")  # tables with a row a place

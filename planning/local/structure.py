@@ -9,8 +9,7 @@ from typing import Protocol
 
 from ...model import CogmapError
 
-MOST = 8
-"""Hypotheses that are walked side by side, at most: the heaviest."""
+MOST = 8  # hypotheses that are walked side by side, at most: the heaviest
 
 Places = tuple[Hashable | None, ...]
 Classes = tuple[int, ...]

@@ -8,9 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import Motions, Pose, Sensor, Sight, SparseDirichlet, Transition
-
-Ints = NDArray[np.int64]
+from ...model import Ints, Motions, Pose, Sensor, Sight, SparseDirichlet, Transition
 
 
 class MapView(Protocol):

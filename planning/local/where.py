@@ -7,8 +7,7 @@ import numpy as np
 from .transitions import Floats, Ints
 from .view import MapView
 
-FAR = 1e15
-"""Beyond are no positions."""
+FAR = 1e15  # beyond are no positions
 
 
 class Where:

@@ -9,13 +9,11 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...model import CogmapError, Motions
+from ...model import CogmapError, Ints, Motions
 from ..local import LocalModel, Surroundings
 from ..prefixes import Prefixes, prefixes_of
 
-Ints = NDArray[np.int64]
 MAX_POLICIES = 2_000_000
 MAX_LOOK_AHEAD = 1_000
 

@@ -5,24 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...model import Floats, Ints
 from ..local import Surroundings
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
-FAR = 8
-"""Promising places beyond the look-ahead that a plan takes in, at most."""
-
-PROMISING = 0.1
-"""P(o | s) of a preferred sight from which a place is promising."""
-
-LONG = 24
-"""Steps of a search from which on it is kept, to go on from."""
-
-MORE = 1.1
-"""By how much what is further off must be worth more than all that is nearer."""
+FAR = 8  # promising places beyond the look-ahead that a plan takes in, at most
+PROMISING = 0.1  # P(o | s) of a preferred sight from which a place is promising
+LONG = 24  # steps of a search from which on it is kept, to go on from
+MORE = 1.1  # by how much what is further off must be worth more than all that is nearer
 
 
 def far_ways(around: Surroundings) -> Ints:

@@ -8,14 +8,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...model import Floats, Ints
 from ..local import LocalModel
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
 _OF_BELIEFS = ("staying", "visits", "reached", "_so_far", "_visited", "_held", "_belief_held")
-FEW = 64
-"""Places up to which it does not pay to leave out those without belief."""
+FEW = 64  # places up to which it does not pay to leave out those without belief
 
 
 @dataclass(frozen=True)

@@ -43,18 +43,17 @@ class Joining:
         others, apart = others[near], apart[near]
         if not len(others):
             return
-        found = between(
-            here[place],
-            pose.bearings.values[place],
-            here[others],
-            pose.bearings.values[others],
-            miss=self._miss(place, others, apart),
-        )
+        miss = self._miss(place, others, apart)
+        found = between(here[place], pose.bearings.values[place], here[others], pose.bearings.values[others], miss=miss)
+        hidden = pose.hidden() if found else None
         taken, met = set[tuple[int, int]](), set[int]()
         for pair in sorted(found, key=lambda pair: ways.beyond(int(others[pair.other]), pair.back) != place):
             mine, its, far = (place, pair.action), (int(others[pair.other]), pair.back), float(apart[pair.other])
             if its[0] in met or not taken.isdisjoint((mine, its)):  # two places share one way at most
                 continue
+            rough = None if miss.any() else pair.rough
+            if hidden and not ways.walked.values[its] and hidden.likely(far, rough=rough):
+                continue  # each leads to a place between the two that nobody has entered, as was thought
             if self._free(mine, place, far) and self._free(its, place, far):
                 taken |= {mine, its}
                 met.add(its[0])

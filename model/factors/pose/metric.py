@@ -14,6 +14,7 @@ from ...column import Column
 from ...percept import Percept
 from ..base import Context, Floats, Ints, Successors
 from .base import Growing
+from .hidden import Hidden, evenly
 from .none import NoPose
 from .odometer import Odometer, direction
 from .relaxing import AXES, Measured, around, drift, relaxed, straightened
@@ -144,6 +145,14 @@ class MetricPose(NoPose):
         return self.odometer.weighed(
             np.stack([place, there], axis=1), rows[:, 4:7], rows[:, 3], self.bearings.values[place, action]
         )
+
+    def hidden(self) -> Hidden:
+        """Whether places lie hidden on ways between others."""
+        walks, some = self.walks.values, evenly(self.context.visits.order.values)
+        lengths = np.linalg.norm(evenly(walks[walks[:, 3] > 0.0])[:, 4:7], axis=1)
+        where = self.where.values[some]
+        apart = np.linalg.norm(where[:, None] - where, axis=2).mean()
+        return Hidden(lengths, self.bearings.values[some], float(apart) / self.length)
 
     def imagine(self, place: int, source: int, action: int) -> None:
         """A place was imagined behind a way: it lies in the direction of its bearing."""

@@ -28,9 +28,6 @@ LEAST = 0.01
 WIDE = 0.3
 """Mean lengths of a way by which it matters where a place is entered, on open ground, where no bearings are seen."""
 
-THROUGH = 0.25
-"""Probability that a way goes straight on into another at its end."""
-
 GUESSED = 0.5
 """Standard deviation of a length that was not measured, over the mean length."""
 
@@ -61,13 +58,12 @@ class Odometer:
 
     Attributes:
         noted: ways measured, the sum of the logarithms of their lengths and of the squares of these, their lengths in
-            all, the longest; measurements whose error was seen, and the sum of the squares of these over lengths; the
-            sum of the squares of lengths.
+            all, the longest; measurements whose error was seen, and the sum of the squares of these over lengths.
     """
 
     def __init__(self, changes: Changes) -> None:
         self.noted = Column("odometer", np.float64, changes=changes)
-        self.noted.resize(8)
+        self.noted.resize(7)
 
     @property
     def longest(self) -> float:
@@ -97,18 +93,6 @@ class Odometer:
         mean = logs / max(many, 1.0)
         spread = np.sqrt((max(squares - many * mean * mean, 0.0) + FEW * SPREAD**2) / (many + FEW))
         return (np.log(np.maximum(length, 1e-9)) - mean) / spread
-
-    def two(self, length: float) -> bool:
-        """Whether what is so long and straight is rather two ways than one, with a place between them."""
-        many, logs, _, total, _ = self.noted.values[:5].tolist()
-        if many < FEW:
-            return False
-        mean, square = total / many, float(self.noted.values[7]) / many
-        spread = np.sqrt(2.0 * max(square - mean * mean, 0.0) + 1e-6 * mean * mean)
-        width = self.log_length(np.exp(1.0 + logs / many)) ** -1.0
-        one = -0.5 * self.log_length(length) ** 2 - np.log(max(length, 1e-9) * width)
-        two = -0.5 * ((length - 2.0 * mean) / spread) ** 2 - np.log(spread) + np.log(THROUGH)
-        return bool(two > one and length > mean)
 
     def most(self, along: float) -> float:
         """Standard deviation of where one is after all ways that were measured, and a move of such a one."""
@@ -170,7 +154,6 @@ class Odometer:
         new = many + 1.0, logs + log, squares + log * log, total + length, max(longest, length)
         for at, value in enumerate(new):
             self.noted.set(at, value)
-        self.noted.set(7, float(self.noted.values[7]) + length * length)
 
     def _err(self, many: float, square: float) -> None:
         before, squares = self.noted.values[5:7].tolist()

@@ -22,9 +22,8 @@ LEAST = 1e-6
 STILL = 1e-3
 """A move that is shorter than this, in mean lengths of a way, was none."""
 
-
-TWO = 25.0
-"""Doubt of a way that is so long that there is rather a place on it that nobody has seen."""
+DOUBTED = 4.0
+"""Nats against a place hidden on a way from which on nobody doubts it."""
 
 
 class Plane(MetricPose):
@@ -109,12 +108,12 @@ class Plane(MetricPose):
         met = np.isin(targets * size + places[:, None], pair[walked & known])  # the way back was walked
         ordered = np.sort(np.where(self.bearings.values[places] >= 0.0, targets, -1 - np.arange(targets.shape[1])))
         twins = {(int(r), int(ordered[r, c])) for r, c in np.argwhere(ordered[:, 1:] == ordered[:, :-1])}
-        found: list[tuple[int, int, float]] = []
+        hidden, found = self.hidden(), list[tuple[int, int, float]]()
         for row, action in np.argwhere((self.bearings.values[places] >= 0.0) & known & ~walked).tolist():
             there = int(targets[row, action])
             if not met[row, action] or (row, there) in twins:  # of two that lead there one leads elsewhere
                 apart = np.linalg.norm(self.where.values[there] - self.where.values[places[row]])
-                doubt = TWO if self.odometer.two(float(apart)) else max(float(self.odometer.log_length(apart)), 0.0)
+                doubt = max(hidden.odds(float(apart), rough=None) + DOUBTED, 0.0)
                 found.append((int(places[row]), action, doubt))
         return found
 
