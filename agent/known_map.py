@@ -15,8 +15,7 @@ from ..model import CogmapError, Motions, MotionSpec, parse_json, read_file, unp
 
 Facts = Mapping[str, Any]
 
-LARGEST_YAML = 16 * 2**20
-"""Bytes of YAML that are read, which takes long."""
+LARGEST_YAML = 16 * 2**20  # bytes of YAML that are read, which takes long
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,7 +1,5 @@
 """The arrays of an npz file of anybody: read within limits, whole, and only those that are asked for."""
 
-from __future__ import annotations
-
 import os
 import re
 import struct

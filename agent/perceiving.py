@@ -1,12 +1,15 @@
 """Observations, checked before anything believes them."""
 
+import sys
 from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import Any
 
 import numpy as np
 
-from ..model import OUTCOMES, UNSEEN, CogmapError, GenerativeModel, Motions, Outcome, Percept
+from ..model import OUTCOMES, UNSEEN, CogmapError, GenerativeModel, Motions, Outcome, Percept, is_number
+
+_MOST = sys.float_info.max
 
 
 def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str, Any]:
@@ -89,12 +92,11 @@ def _keys(model: GenerativeModel) -> str:
 
 
 def _action(taken: Any, model: GenerativeModel) -> int:
-    names = model.motions.names
-    if isinstance(taken, str) and taken in names:
-        return names.index(taken)
-    if isinstance(taken, int | np.integer) and not isinstance(taken, bool) and 0 <= taken < len(names):
-        return int(taken)
-    raise CogmapError(f"observation: 'taken' is {taken!r}; give an action by name or index: {', '.join(names)}")
+    index = model.motions.index(taken)
+    if index is None:
+        names = ", ".join(model.motions.names)
+        raise CogmapError(f"observation: 'taken' is {taken!r}; give an action by name or index: {names}")
+    return index
 
 
 def _outcome(outcome: Any, model: GenerativeModel) -> Outcome:
@@ -124,18 +126,12 @@ def _displacement(measured: Any, model: GenerativeModel) -> tuple[float, ...]:
 
 def _number(name: str, least: float) -> Callable[[Any, GenerativeModel], float]:
     def number(value: Any, model: GenerativeModel) -> float:
-        if not (_is_real(value) and value >= least):
+        if not is_number(value, least, _MOST):
             bound = "" if least < 0.0 else f" of {least:g} or more"
             raise CogmapError(f"observation: {name!r} is {_short(value)}; give a finite number{bound}")
         return float(value)
 
     return number
-
-
-def _is_real(value: Any) -> bool:
-    """Whether a value is a finite number, and no truth value."""
-    real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    return real and value is not np.ma.masked and isfinite(value)
 
 
 def _costs(value: Any, model: GenerativeModel) -> tuple[float | None, ...]:
@@ -148,7 +144,7 @@ def _costs(value: Any, model: GenerativeModel) -> tuple[float | None, ...]:
         value = [value.get(name) for name in names]
     given = list(value) if isinstance(value, list | tuple | np.ndarray) else []
     costs = [None if each is None or each is np.ma.masked else each for each in given]
-    if len(costs) != len(names) or not all(cost is None or (_is_real(cost) and cost >= 0.0) for cost in costs):
+    if len(costs) != len(names) or not all(cost is None or is_number(cost, 0.0, _MOST) for cost in costs):
         raise CogmapError(
             f"observation: 'costs' is {_short(value)}; give each action a finite number of 0 or more, or None"
         )
@@ -163,7 +159,7 @@ _SAID: dict[str, Callable[[Any, GenerativeModel], Any]] = {
     "taken": _action,
     "outcome": _outcome,
     "displacement": _displacement,
-    "turn": _number("turn", -np.inf),
+    "turn": _number("turn", -_MOST),
     "moved": _moved,
     "cost": _number("cost", 0.0),
     "costs": _costs,

@@ -1,7 +1,5 @@
 """All that the next steps of an agent depend on besides its map."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
@@ -46,11 +44,7 @@ class Choice:
     policy: tuple[int, ...]
 
     def of(self, plan: Plan) -> Plan:
-        """The plan with this choice.
-
-        Raises:
-            CogmapError: the policy is not one of its.
-        """
+        """The plan with this choice. Raises CogmapError: the policy is not one of its."""
         if plan.policies.shape[1] == len(self.policy):
             found = np.flatnonzero((plan.policies == self.policy).all(axis=1))
             if len(found):

@@ -1,7 +1,5 @@
 """From a view to tiles: likelihoods of each, from pixels or from symbols."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,8 +9,7 @@ from numpy.typing import NDArray
 from ..model import CogmapError
 from .vocabulary import vocabulary
 
-DOUBT = 7.0
-"""Nats by which the least likely tile is less likely than the most likely one: no look is surer than that."""
+DOUBT = 7.0  # nats by which the least likely tile is less likely than the most likely one: no look is surer than that
 _QUIET = 3.0  # of 255: no camera is taken to be better
 _PARTS = 4  # in which looks are compared: small products are not handed to threads, which others may keep waiting
 _SPREAD = 0.75  # quantile of the tiles whose misfit tells the noise: some may be none that is known

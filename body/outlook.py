@@ -1,7 +1,5 @@
 """What can be told of a room from what was seen of it: its exits, and what would have to be looked at."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -10,8 +8,7 @@ import numpy as np
 from ..worlds import minigrid as mg
 from .room_map import Mask, Pose, RoomMap, shifted
 
-MAYBE = 0.25
-"""Probability that a room goes on beyond what was seen from which on that has to be looked at."""
+MAYBE = 0.25  # probability that a room goes on beyond what was seen from which on that has to be looked at
 
 _HEADINGS = np.array(mg.AHEAD)
 _FAR, _WIDE = 6, 3  # tiles that are in view ahead, and to each side

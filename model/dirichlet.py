@@ -1,7 +1,5 @@
 """Sparse growing tables of Dirichlet counts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from math import inf
@@ -18,8 +16,7 @@ from .errors import CogmapError
 EMPTY = -2
 """Key of an unused slot."""
 
-LARGEST = 1e301
-"""What no count reaches, so that all those of a row have a finite sum."""
+LARGEST = 1e301  # what no count reaches, so that all those of a row have a finite sum
 
 
 def _grown(array: NDArray[np.generic], shape: tuple[int, int], fill: float) -> NDArray[np.generic]:

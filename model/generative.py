@@ -1,7 +1,5 @@
 """The generative model (eq. 1) as a list of factors over places that come as they are imagined."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
 

@@ -68,12 +68,10 @@ def checked_places(map_: ReadableMap, places: Sequence[int] | None) -> NDArray[n
 
 def action_named(map_: ReadableMap, action: str | int) -> int:
     """Index of an action given by name or index. Raises CogmapError: there is none."""
-    names = map_.motions.names
-    if isinstance(action, str) and action in names:
-        return names.index(action)
-    if isinstance(action, int | np.integer) and not isinstance(action, bool) and 0 <= action < len(names):
-        return int(action)
-    raise CogmapError(f"map: no action {action!r}; choose one of {', '.join(names)}")
+    index = map_.motions.index(action)
+    if index is None:
+        raise CogmapError(f"map: no action {action!r}; choose one of {', '.join(map_.motions.names)}")
+    return index
 
 
 def _rows(

@@ -5,9 +5,10 @@ from __future__ import annotations
 import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, cast
 
 from .errors import CogmapError
+from .rates import is_whole
 
 Position = tuple[int, ...]
 
@@ -136,6 +137,12 @@ class Motions:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def index(self, action: object) -> int | None:
+        """The index of an action given by name or index; None of what is none."""
+        if is_whole(action, 0, len(self) - 1):
+            return int(cast(int, action))
+        return self.names.index(action) if isinstance(action, str) and action in self.names else None
 
     def move(self, position: Position, action: int) -> Position:
         """The position that `action` leads to from `position` where the way is free."""

@@ -16,6 +16,11 @@ def is_number(value: object, least: float, most: float) -> bool:
     return kind and bool(least <= value <= most)  # type: ignore[operator]
 
 
+def is_whole(value: object, least: int, most: int) -> bool:
+    """Whether it is a whole number in [least, most]; a truth value is none."""
+    return isinstance(value, int | np.integer) and not isinstance(value, bool) and bool(least <= value <= most)
+
+
 @dataclass(frozen=True, slots=True)
 class Priors:
     """Concentrations before any evidence.

@@ -5,8 +5,6 @@ puts the old values, then cuts everything that only grows to the length it had, 
 That costs as much as the map is large; a savepoint costs next to nothing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass

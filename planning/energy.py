@@ -1,7 +1,5 @@
 """Expected free energy of policies, term by term."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

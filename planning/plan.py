@@ -1,7 +1,5 @@
 """The record of a plan, and the posterior over policies."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

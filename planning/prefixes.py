@@ -1,7 +1,5 @@
 """The prefix tree of some policies: what they share is rolled out once."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

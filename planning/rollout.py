@@ -1,7 +1,5 @@
 """Expected free energy of policies: beliefs rolled forward, every term kept apart."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -151,6 +151,18 @@ def test_blocks_run_one_after_another_and_show_what_they_do(running: ModuleType)
     assert text.endswith("end\n")
 
 
+def test_pictures_are_drawn_for_both_themes(running: ModuleType) -> None:
+    draw = (
+        "from matplotlib.figure import Figure\n"
+        "figure = Figure(figsize=(1, 1))\nfigure.subplots().plot([1, 2])\nfigure.savefig('a.png')\n"
+    )
+    text, pictures = running.with_outcomes(f"```python\n{draw}```\n", "howto/x.md")
+    assert "(../drawn/howto/x/a.png#only-light)" in text
+    assert "(../drawn/howto/x/a.dark.png#only-dark)" in text
+    assert sorted(pictures) == ["a.dark.png", "a.png"]
+    assert pictures["a.png"] != pictures["a.dark.png"]
+
+
 def test_commands_run(running: ModuleType) -> None:
     text, _ = running.with_outcomes("```console\n$ cogmap --version\n```\n", "x.md")
     assert text.startswith("```sh\ncogmap --version\n```")

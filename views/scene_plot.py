@@ -1,17 +1,13 @@
 """A world as it looks from above, with a path walked through its tiles."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..model import CogmapError
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from .axes import Axes
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,5 @@
 """One agent among the places of a chart: what mazes and graphs have in common."""
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Mapping
 from typing import Any, ClassVar

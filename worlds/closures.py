@@ -1,7 +1,5 @@
 """Which rooms and doors of a world are closed at present."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from .errors import WorldError

@@ -1,7 +1,5 @@
 """Families of mazes of any size. Corridors keep an empty cell apart, as all adjacent rooms share a door."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Worlds by name or from a file, and their Gymnasium ids."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path

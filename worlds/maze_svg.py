@@ -1,7 +1,5 @@
 """A maze as SVG, for notebooks."""
 
-from __future__ import annotations
-
 import html
 import re
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """The moves a world offers, as plain data."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

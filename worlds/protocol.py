@@ -1,7 +1,5 @@
 """What a world is, and what else it may offer, as protocols: each use asks for no more than it needs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any, Protocol, TypeVar, runtime_checkable
 

@@ -1,7 +1,5 @@
 """Sights for places that have none of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Hashable, Sequence
 
 import numpy as np

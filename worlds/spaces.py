@@ -1,7 +1,5 @@
 """Spaces of what is observed that Gymnasium has none for."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable
 from typing import Any
 

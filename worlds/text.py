@@ -8,8 +8,6 @@ labels has a wall wherever dashes stand:
     attic den    den
 """
 
-from __future__ import annotations
-
 import os
 import re
 import stat

@@ -1,7 +1,5 @@
 """Other environments as worlds, and worlds in which less is sensed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What is known beforehand of the ways of a world, and what one step brings."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import isfinite
@@ -9,8 +7,7 @@ from math import isfinite
 from ...model import CogmapError
 from .records import Position
 
-Reading = int | Mapping[int, float] | None
-"""A label, by number; likelihoods of labels; or None: not seen."""
+Reading = int | Mapping[int, float] | None  # A label, by number; likelihoods of labels; or None: not seen
 
 
 @dataclass(frozen=True, slots=True)

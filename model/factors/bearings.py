@@ -1,12 +1,13 @@
 """Which way the ways of a place lead: what a place is known by that looks like many others."""
 
+import sys
 from collections.abc import Hashable, Sequence
-from math import isfinite
 from typing import Any, cast
 
 import numpy as np
 
 from ..errors import CogmapError
+from ..rates import is_number
 from .base import Context, Floats, Ints
 from .sight import Sight
 from .transition import Transition
@@ -57,8 +58,7 @@ class Bearings(Sight):
 
 
 def _is_bearing(value: Any) -> bool:
-    number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    return value is None or (number and isfinite(value))
+    return value is None or is_number(value, -sys.float_info.max, sys.float_info.max)
 
 
 def _degrees(value: float) -> int | float:

@@ -1,7 +1,5 @@
 """A place exists once it was entered (figure on internal map layouts, b)."""
 
-from __future__ import annotations
-
 from ..generative import GenerativeModel
 from .base import Growth, Whereabouts, place_beyond
 

@@ -1,7 +1,5 @@
 """A place exists once a door to it was seen (figure on internal map layouts, c): the paper's proposal."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ..generative import GenerativeModel

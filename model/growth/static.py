@@ -1,13 +1,12 @@
 """The number of places is known beforehand, nothing else (figure on internal map layouts, a)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
 from ..errors import CogmapError
 from ..generative import GenerativeModel
+from ..rates import is_whole
 from .base import Growth, Whereabouts
 
 MOST = 10_000_000  # places that can be known beforehand
@@ -26,8 +25,7 @@ class StaticGrowth(Growth):
     name = "static"
 
     def __init__(self, places: int) -> None:
-        whole = isinstance(places, int) and not isinstance(places, bool)  # pyright: ignore[reportUnnecessaryIsInstance]
-        if not whole or not 1 <= places <= MOST:  # pyright: ignore[reportUnnecessaryIsInstance]
+        if not is_whole(places, 1, MOST):
             raise CogmapError(
                 f"growth: static growth cannot have {places!r} places; give the size of the world, {MOST:,} at most"
             )

@@ -1,7 +1,5 @@
 """What a way to choose is, and what they share."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar

@@ -1,7 +1,5 @@
 """The least G, and while exploring outward first."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """What plans read of each place of a map, kept from step to step until the map has changed there."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Cuts out of the map what a plan can see: the places within look-ahead of the belief, and their tables."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial

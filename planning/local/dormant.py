@@ -1,7 +1,5 @@
 """Actions that lead nowhere around here: what is never open is not imagined to be."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

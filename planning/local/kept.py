@@ -1,7 +1,5 @@
 """What planners work out of the ways of a cut alone, for the next plan there."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import dataclass, field
 from typing import Any

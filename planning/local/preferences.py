@@ -1,7 +1,5 @@
 """What the agent hopes for."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 

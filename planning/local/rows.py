@@ -1,7 +1,5 @@
 """Rows that are worked out once, and again where what they come from has changed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any
 

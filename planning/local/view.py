@@ -1,7 +1,5 @@
 """All that a planner reads of a map: `CognitiveMap` has it, and so may anything else that is to be planned with."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Protocol
 

@@ -1,7 +1,5 @@
 """Where the places of a map are, as an array that follows the map."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .transitions import Floats, Ints

@@ -1,7 +1,5 @@
 """What every policy generator returns, and the few steps they share."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass

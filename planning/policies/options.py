@@ -1,7 +1,5 @@
 """Exploring by options: the likely shortest ways to places never entered."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

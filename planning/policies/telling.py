@@ -1,7 +1,5 @@
 """Walks that tell hypotheses about the map apart."""
 
-from __future__ import annotations
-
 from collections import deque
 
 from ...model import Motions

@@ -1,7 +1,5 @@
 """One step of one policy in plain Python, and the sums over places that the plain terms share."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import floor, log

@@ -1,7 +1,5 @@
 """What sensors would tell about the place."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import log, prod, sqrt
 

@@ -1,7 +1,5 @@
 """What is sensed on the way would tell about the map as a whole."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

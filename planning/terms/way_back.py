@@ -1,7 +1,5 @@
 """What it spares to have been somewhere already, when all else is left to see."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

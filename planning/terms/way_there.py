@@ -1,7 +1,5 @@
 """What the way to somewhere costs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """From nodes and edges as they were written to a world that can be lived in, or to one clear error."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """How rooms, corridors and doors are measured, in tiles."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from ..errors import WorldError

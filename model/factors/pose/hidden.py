@@ -1,7 +1,5 @@
 """Whether two ways that point at each other are one, or there is a place between them that nobody has seen."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -11,35 +9,22 @@ from .ways_between import ROUGH
 
 Floats = NDArray[np.float64]
 
-SAMPLE = 64
-"""Ways that were walked, and places, that are looked at, spread evenly over all."""
-
-FEW = 4
-"""Ways walked before which nobody says that a place is hidden."""
-
-BROAD = 2.0
-"""Ways that the broad density of lengths counts for, beside those that were measured."""
+SAMPLE = 64  # ways that were walked, and places, that are looked at, spread evenly over all
+FEW = 4  # ways walked before which nobody says that a place is hidden
+BROAD = 2.0  # ways that the broad density of lengths counts for, beside those that were measured
 
 SPREAD, SPREADS = 0.5, 4.0
 """Standard deviation of the logarithm of lengths before any was measured, and how many measurements it counts for."""
 
-LEAST_WIDTH = 0.08
-"""Of the kernel about the logarithm of a length."""
-
-SHORT = 0.1
-"""Mean lengths of a way that one counts for at least: some places have one position."""
+LEAST_WIDTH = 0.08  # of the kernel about the logarithm of a length
+SHORT = 0.1  # mean lengths of a way that one counts for at least: some places have one position
 
 MISS, MISS_HIDDEN = 0.06, 0.5
 """Probability that a way misses the place that it leads to, as far as whole degrees tell; and one beyond a third."""
 
-LEAST_SPARED = 0.1
-"""Steps that it spares to have looked for a place, at least, for each in vain."""
-
-TINY = 1e-12
-"""A density that is never fallen short of."""
-
-STRAIGHT, NOT = 0.5, 9.5
-"""Beta counts of how often a way goes straight on in another at its end."""
+LEAST_SPARED = 0.1  # steps that it spares to have looked for a place, at least, for each in vain
+TINY = 1e-12  # A density that is never fallen short of
+STRAIGHT, NOT = 0.5, 9.5  # beta counts of how often a way goes straight on in another at its end
 
 
 class Hidden:

@@ -1,7 +1,5 @@
 """Which way of a place is which way of another, and what follows where that turns out to be otherwise."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..base import Floats, Ints
@@ -13,11 +11,8 @@ from .ways_between import ROUGH, between
 LONG = 2.5
 """Standard deviations of the logarithm of lengths above the mean up to which a way that was not walked may be long."""
 
-SURELY = 2.0
-"""Standard deviations of a position by which a way may miss it."""
-
-VAGUE = 35.0
-"""Degrees by which it may miss it at most."""
+SURELY = 2.0  # standard deviations of a position by which a way may miss it
+VAGUE = 35.0  # degrees by which it may miss it at most
 
 
 class Joining:

@@ -1,7 +1,5 @@
 """Where places lie, and what was measured of the ways between them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -22,17 +20,10 @@ from .relaxing import AXES, Measured, around, drift, relaxed, straightened
 UNKNOWN = 1e18
 """Stands for a coordinate that nobody knows."""
 
-RECENT = 4
-"""Visits whose time is kept with a place."""
-
-TOLD = 1e-4
-"""Likelihood of what was measured where a move led elsewhere than it was found to lead."""
-
-CLOSED = 1e-3
-"""Mean lengths of a way by which a loop may be open and positions stay as they are."""
-
-MOST = 400
-"""Places that are relaxed at once, those nearest to where the loop closed."""
+RECENT = 4  # visits whose time is kept with a place
+TOLD = 1e-4  # likelihood of what was measured where a move led elsewhere than it was found to lead
+CLOSED = 1e-3  # mean lengths of a way by which a loop may be open and positions stay as they are
+MOST = 400  # places that are relaxed at once, those nearest to where the loop closed
 
 WALK = 8
 """What is kept of a walk: place, action, where it led, how often it was measured, the mean move, and the heading."""

@@ -1,7 +1,5 @@
 """What is learned of the lengths of ways, and of how far measurements of moves err."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,14 +11,12 @@ from ...column import Column
 from ..base import Floats, Ints
 from .relaxing import AXES, Measured
 
-COMPASS = 0.0105
-"""Standard deviation of a bearing, radians: whole degrees, some of them made different from each other."""
+COMPASS = 0.0105  # standard deviation of a bearing, radians: whole degrees, some of them made different from each other
 
 USUAL, COUNTS = 0.002, 4.0
 """Standard deviation of a measurement over its length before anything is known, and how many count for it."""
 
-ERRS = 0.006
-"""Rate from which on measurements are not taken for exact."""
+ERRS = 0.006  # rate from which on measurements are not taken for exact
 
 LEAST = 0.01
 """Mean lengths of a way that a move counts for at least, where it is asked how far its measurement may err."""
@@ -28,11 +24,8 @@ LEAST = 0.01
 WIDE = 0.3
 """Mean lengths of a way by which it matters where a place is entered, on open ground, where no bearings are seen."""
 
-GUESSED = 0.5
-"""Standard deviation of a length that was not measured, over the mean length."""
-
-SHORT = 0.1
-"""Mean lengths of a way that one counts for at least among the logarithms: some places have one position."""
+GUESSED = 0.5  # standard deviation of a length that was not measured, over the mean length
+SHORT = 0.1  # mean lengths of a way that one counts for at least among the logarithms: some places have one position
 
 SPREAD, FEW = 0.5, 4
 """Standard deviation of the logarithm of lengths before any was measured, and how many measurements it counts for."""
@@ -40,17 +33,11 @@ SPREAD, FEW = 0.5, 4
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """A move as it was measured.
+    """A move as it was measured."""
 
-    Attributes:
-        raw: `[3]` as measured.
-        moved: `[3]` how far it most probably led, by what was measured and by the bearing of its way.
-        along: standard deviation of its length.
-    """
-
-    raw: Floats
-    moved: Floats
-    along: float
+    raw: Floats  # `[3]` as measured
+    moved: Floats  # `[3]` how far it most probably led, by what was measured and by the bearing of its way
+    along: float  # standard deviation of its length
 
 
 class Odometer:

@@ -1,7 +1,5 @@
 """Positions in the plane, or in space, by what is measured of each move, and relaxed when loops close."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -19,11 +17,8 @@ from .roaming import Roaming
 LEAST = 1e-6
 """P(ways as sensed) of a new place, at least, where it is taken out again."""
 
-STILL = 1e-3
-"""A move that is shorter than this, in mean lengths of a way, was none."""
-
-DOUBTED = 4.0
-"""Nats against a place hidden on a way from which on nobody doubts it."""
+STILL = 1e-3  # A move that is shorter than this, in mean lengths of a way, was none
+DOUBTED = 4.0  # nats against a place hidden on a way from which on nobody doubts it
 
 
 class Plane(MetricPose):

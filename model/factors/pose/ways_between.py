@@ -1,7 +1,5 @@
 """Which ways of two places lead to each other, by where the places lie and which way their ways point."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -9,11 +7,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-EXACT = 0.6
-"""Degrees within which a way points at a place."""
-
-ROUGH = 1.6
-"""The same of bearings in whole degrees that were made different from each other."""
+EXACT = 0.6  # degrees within which a way points at a place
+ROUGH = 1.6  # the same of bearings in whole degrees that were made different from each other
 
 
 class Between(NamedTuple):
