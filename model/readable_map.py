@@ -104,8 +104,14 @@ class ReadableMap(GenerativeModel):
         return self.transitions.blocked(places)
 
     def transition(self, next_place: int, place: int, action: int) -> float:
-        """P(s' = next_place | s = place, a)."""
-        return float(self.B_s.probability(next_place, np.array([self.row(place, action)]))[0])
+        """P(s' = next_place | s = place, a), a being the action given: another one may be carried out instead.
+
+        `B_s` says where ways lead; it is the same where actions hardly ever go astray.
+        """
+        carried_out = self.transitions.carried_out(action)
+        if carried_out is None:
+            return float(self.B_s.probability(next_place, np.array([self.row(place, action)]))[0])
+        return float(carried_out @ self.B_s.probability(next_place, self.rows_of(np.array([place]))))
 
     def beyond(self, place: int, action: int) -> int | None:
         """The place that `action` most probably leads to from `place` if it is not blocked; None if none is known."""

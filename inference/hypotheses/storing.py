@@ -85,6 +85,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
                 "periods": [[frame, [list(row) for row in rows]] for frame, rows in h.periods.items()],
                 "undo": len(h.undo),
                 "clan": h.clan,
+                "slips": [[*key, count] for key, count in h.slips.items()],
             }
             for h in hypotheses
         ],
@@ -280,6 +281,7 @@ def _read_hypothesis(
         one, other = source.numbers(2)
         yes, no = source.reals(2)
         h.undo[one, other] = (yes, no)
+    h.slips = {(int(given), int(taken)): float(count) for given, taken, count in entry.get("slips", ())}
     return h
 
 
@@ -309,7 +311,7 @@ def _check(h: Hypothesis) -> None:
     yes, no = h.counts.yes, h.counts.no
     if not (0.0 <= yes[BLAMED] <= 1.0 and yes[STAYED] > -TRACE and (yes[STAYED] < TRACE or no[STAYED] > 0.0)):
         raise ValueError("its moves failed less often than never")
-    if not all(count >= 0.0 for both in (*h.looks, *h.undo.values()) for count in both):
+    if not all(count >= 0.0 for both in (*h.looks, *h.undo.values(), h.slips.values()) for count in both):
         raise ValueError("it was read as open or blocked less than never")
     if h.crowd is not None:
         known = all(h.places.get(number) is not None for number in h.crowd)

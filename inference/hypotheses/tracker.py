@@ -29,6 +29,7 @@ from .replaying import OFTEN, History, doubted, replayed, without
 from .scheme import Sensed, WayScheme
 from .storing import Arrays, Parts, restored, stored
 from .straightening import straightened
+from .surveying import surveyed
 
 QUIET = 4
 """Steps without doubt after which what is improbable is let go."""
@@ -47,6 +48,9 @@ DECIDED = 256
 
 DOUBTED = 4
 """Places that are looked at a step where the agent is moved often."""
+
+SURVEYS = (32, 64, 128, 256, 480)
+"""Steps at which the whole walk is surveyed, where something is in doubt then; later ones would not know all of it."""
 
 MANY = 4096
 """Foldings that are remembered."""
@@ -227,7 +231,8 @@ class Tracker:
             likeliest = max(happened, key=lambda branch: branch.weight)
             happened = [branch for branch in happened if not apart(branch, likeliest)]
         children = [self._extended(branch, sensed) for branch in happened]
-        proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
+        best = max(children, key=lambda h: h.weight)
+        proposed = [*self._folded(children, drop), *self._without(best, drop), *self._surveyed(best, sensed, drop)]
         found = merged(children, proposed)
         found = self._decided([h for h in found if h.weight > found[0].weight - drop])
         found = self._doubted_or_clear(found, previous, sensed, drop)
@@ -363,6 +368,18 @@ class Tracker:
                 yield other
             else:
                 self._in_vain(key, h, IN_VAIN)
+
+    def _surveyed(self, best: Hypothesis, sensed: Sensed, drop: float) -> Iterator[Hypothesis]:
+        """Now and then, while something is in doubt, the map in which each label is one place."""
+        if self.time not in SURVEYS or self._clear or self.history.start or self.history.end > self.time + 1:
+            return
+        if self.scheme.displacements is None or sensed.others is not None or not self.scheme.sensors:
+            return
+        total = self.history.norm(0)
+        found = surveyed(best, self.history, floor=total + best.weight - drop)
+        if found is not None:
+            found.weight -= total
+            yield found
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
         """The foldings that are probable enough."""

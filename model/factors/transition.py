@@ -1,6 +1,6 @@
 """P(s' | s, a): where the ways of a place lead, as Dirichlet counts B_s."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import Any
 
@@ -23,6 +23,10 @@ UNKNOWN, OPEN, BLOCKED = 0, 1, 2
 """What was last sensed of a door."""
 
 
+def _as_given(action: int) -> None:
+    """Actions are carried out as they are given."""
+
+
 class Transition(ModelFactor):
     """Row `place * K + action` of the table `B_s` has the places that the action may lead to.
 
@@ -30,9 +34,12 @@ class Transition(ModelFactor):
         table: B_s.
         sensed: `[S, K]` what was last sensed of each door.
         walked: `[S, K]` whether each way was ever walked.
+        carried_out: `[K]` P(action carried out | an action given), as whoever learns it has it; None where actions
+            hardly ever go astray, as long as nobody says otherwise.
     """
 
     name = "transition"
+    carried_out: Callable[[int], Floats | None] = staticmethod(_as_given)
 
     def attach(self, context: Context) -> None:
         super().attach(context)
