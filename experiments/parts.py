@@ -177,7 +177,7 @@ class Parts:
 
 def _sensors(world: Any) -> list[Sensor] | None:
     """A sensor for each that the world has; None where these are the usual two."""
-    names = [name for name in _observed(world) if name not in ("ways", "displacement")]
+    names = [name for name in _observed(world) if name not in ("ways", "displacement", "lengths")]
     if not names or sorted(names) == ["open", "sight"]:
         return None
     own: dict[str, Sensor] = {"open": Ways(learned="bearings" in names), "bearings": Bearings()}

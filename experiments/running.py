@@ -40,24 +40,16 @@ Watch = Callable[[Moment], object]
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """What came of a run.
+    """What came of a run."""
 
-    Attributes:
-        agent: after its last observation.
-        actions: what it chose, one action an observation; all were carried out.
-        truth: where it truly was at each observation, `info["place"]` or `info["position"]`; empty where the world does
-            not say.
-        records: the agent's own records of these steps; empty for an agent that keeps no `trace`.
-        end: observation and info after the last action, which the agent has not seen; `run(..., begin=end)` goes on.
-        ended: whether the world ended the episode.
-    """
-
-    agent: Any
-    actions: tuple[int, ...]
+    agent: Any  # after its last observation
+    actions: tuple[int, ...]  # what it chose, one action an observation; all were carried out
+    # where it truly was at each observation, `info["place"]` or `info["position"]`; empty where the world does
+    # not say
     truth: tuple[Any, ...]
-    records: tuple[StepRecord, ...]
-    end: Seen
-    ended: bool
+    records: tuple[StepRecord, ...]  # the agent's own records of these steps; empty for an agent that keeps no `trace`
+    end: Seen  # observation and info after the last action, which the agent has not seen; `run(..., begin=end)` goes on
+    ended: bool  # whether the world ended the episode
 
     @property
     def observations(self) -> int:

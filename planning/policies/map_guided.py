@@ -51,15 +51,12 @@ class MapGuided(PolicyGenerator):
 
     `Policies.cut` is the number of prefixes that the beam dropped.
 
-    Attributes:
-        beam: prefixes kept a level, shared by the starts.
-
     Raises:
         CogmapError: `beam` is no whole number from 1 to `MAX_POLICIES`.
     """
 
     name: ClassVar[str] = "map_guided"
-    beam: int = 64
+    beam: int = 64  # prefixes kept a level, shared by the starts
 
     def __post_init__(self) -> None:
         whole = isinstance(self.beam, int | np.integer)  # pyright: ignore[reportUnnecessaryIsInstance]

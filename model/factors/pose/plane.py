@@ -88,7 +88,11 @@ class Plane(MetricPose):
         seen = seen_bearings(model, percept)
         if seen is not None and not (self.bearings.values[place] >= 0.0).any():
             fill(self.bearings, place, seen.tolist())
-            Joining(self, model, step).join(place)
+            if percept.lengths is not None:
+                fill(self.lengths, place, [-1.0 if each is None else each for each in percept.lengths])
+            joining = Joining(self, model, step)
+            joining.join(place)
+            joining.meet(place)
 
     def guessed(self, ways: Transition) -> Sequence[tuple[int, int, float]]:
         """Ways between places that were entered, walked in neither direction; doubted if longer than is usual."""
