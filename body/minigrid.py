@@ -35,7 +35,7 @@ class Limbs(Protocol):
 
 
 class MiniGridBody:
-    """Goes from room to room in any MiniGrid world, by the view alone: no compass, no true state, no grid.
+    """Moves from room to room in any MiniGrid world by its view alone: no compass, no true state, no grid.
 
     Rooms are chunks of space bounded by doors and gaps. Ways are the four directions of a frame of its own, in which
     it faced up where it woke.
