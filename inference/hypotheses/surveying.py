@@ -8,7 +8,7 @@ along is found only if it is asked of the whole walk: where places lie to each o
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from math import lgamma
 from operator import add
 from operator import sub as minus
@@ -110,9 +110,12 @@ def _with(scheme: WayScheme, moves: Moves, layout: _Layout, label: int) -> Itera
     """The layout with one label more, in each place beside those from or to which moves lead."""
     assert scheme.displacements is not None
     near = {other: at for other, at in layout.at.items() if any(_between(scheme, moves, label, other))}
-    taken = set(layout.at.values())
-    ahead = {tuple(map(add, at, by)) for at in (near or layout.at).values() for by in scheme.displacements}
-    for there in sorted(ahead - taken):
+    taken, steps = {*layout.at.values()}, scheme.displacements
+
+    def free(places: Iterable[Position]) -> set[Position]:
+        return {tuple(map(add, at, by)) for at in places for by in steps} - taken
+
+    for there in sorted(free(near.values()) or free(taken)):  # somewhere else where all places beside those are taken
         led = dict(layout.led)
         for other, at in near.items():
             for one, to, source, target in ((other, label, at, there), (label, other, there, at)):
