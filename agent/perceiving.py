@@ -23,7 +23,8 @@ def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str,
     """
     if not isinstance(observation, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance]
         kind = type(observation).__name__
-        raise CogmapError(f"observation: is a {kind}; give a mapping with keys {_keys(model)}")
+        hint = " (of what env.reset() and env.step() return, the first alone)" if isinstance(observation, tuple) else ""
+        raise CogmapError(f"observation: is a {kind}; give a mapping with keys {_keys(model)}{hint}")
     given = dict(observation)
     if "ways" in given and "ways" not in model.sensors and "open" in model.sensors:
         if "open" in given:
@@ -73,6 +74,7 @@ def percept_of(
         moved=values.get("moved", False),
         cost=values.get("cost"),
         costs=values.get("costs"),
+        lengths=values.get("lengths"),
     )
 
 
@@ -134,25 +136,29 @@ def _number(name: str, least: float) -> Callable[[Any, GenerativeModel], float]:
     return number
 
 
-def _costs(value: Any, model: GenerativeModel) -> tuple[float | None, ...]:
-    names = model.motions.names
-    if isinstance(value, Mapping):
-        if unknown := [name for name in value if name not in names]:
-            raise CogmapError(
-                f"observation: 'costs' has {_short(unknown[0])}; give costs of actions by name: {', '.join(names)}"
-            )
-        value = [value.get(name) for name in names]
-    given = list(value) if isinstance(value, list | tuple | np.ndarray) else []
-    costs = [None if each is None or each is np.ma.masked else each for each in given]
-    if len(costs) != len(names) or not all(cost is None or is_number(cost, 0.0, _MOST) for cost in costs):
-        raise CogmapError(
-            f"observation: 'costs' is {_short(value)}; give each action a finite number of 0 or more, or None"
-        )
-    return tuple(None if cost is None else float(cost) for cost in costs)
-
-
 def _short(value: Any) -> str:
     return " ".join(repr(value).split())
+
+
+def _each(what: str) -> Callable[[Any, GenerativeModel], tuple[float | None, ...]]:
+    def numbers(value: Any, model: GenerativeModel) -> tuple[float | None, ...]:
+        names = model.motions.names
+        if isinstance(value, Mapping):
+            if unknown := [name for name in value if name not in names]:
+                known = ", ".join(names)
+                raise CogmapError(
+                    f"observation: {what!r} has {_short(unknown[0])}; give {what} of actions by name: {known}"
+                )
+            value = [value.get(name) for name in names]
+        given = list(value) if isinstance(value, list | tuple | np.ndarray) else []
+        found = [None if each is None or each is np.ma.masked else each for each in given]
+        if len(found) != len(names) or not all(each is None or is_number(each, 0.0, _MOST) for each in found):
+            raise CogmapError(
+                f"observation: {what!r} is {_short(value)}; give each action a finite number of 0 or more, or None"
+            )
+        return tuple(None if each is None else float(each) for each in found)
+
+    return numbers
 
 
 _SAID: dict[str, Callable[[Any, GenerativeModel], Any]] = {
@@ -162,6 +168,7 @@ _SAID: dict[str, Callable[[Any, GenerativeModel], Any]] = {
     "turn": _number("turn", -_MOST),
     "moved": _moved,
     "cost": _number("cost", 0.0),
-    "costs": _costs,
+    "costs": _each("costs"),
+    "lengths": _each("lengths"),
 }
 """What an observation may say of the move besides, and what reads it."""

@@ -32,7 +32,7 @@ AGENTS = ("cogmap", "frontier", "random", *CSCG)
 
 
 class Maker(Protocol):
-    """Makes the agents of a sweep, each with a seed of its own; to go to other processes it must pickle."""
+    """Makes the agents of a sweep, each with its own seed. It must be picklable to run in other processes."""
 
     @property
     def agent(self) -> str:
@@ -50,7 +50,7 @@ class Maker(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """What an agent is made of, by name.
+    """The parts of an agent, by name.
 
     Attributes:
         agent: one of `AGENTS`.
@@ -177,7 +177,7 @@ class Parts:
 
 def _sensors(world: Any) -> list[Sensor] | None:
     """A sensor for each that the world has; None where these are the usual two."""
-    names = [name for name in _observed(world) if name not in ("ways", "displacement")]
+    names = [name for name in _observed(world) if name not in ("ways", "displacement", "lengths")]
     if not names or sorted(names) == ["open", "sight"]:
         return None
     own: dict[str, Sensor] = {"open": Ways(learned="bearings" in names), "bearings": Bearings()}

@@ -146,6 +146,30 @@ def test_exploring_may_go_by_metres() -> None:
     assert made.planner.explorer.by == "metres"
 
 
+def test_lengths_that_are_told_say_where_places_lie_that_nobody_entered() -> None:
+    """Ways of several places that lead to one are known to do so, before anybody was there."""
+    world = ListedWays(grid(4, 5, sights="distinct", pose="lengths"))
+    observation, info = world.reset(seed=1)
+    agent, chart = agent_of(world), world.unwrapped.chart
+    start, entered = np.array(chart.positions[info["place"]]), [info["place"]]
+    for _ in range(6):
+        observation, _, _, _, info = world.step(agent.step(observation))
+        entered.append(info["place"])
+    agent.perceive(observation)
+    ahead = {place for at in entered for place in chart.successors(at).values()} - {*entered}
+    known = [place for place in agent.map.places if place not in agent.map.visited_places]
+    mine = np.array([agent.map.position(place)[:2] for place in known])
+    true = np.array([chart.positions[place] for place in ahead]) - start
+    assert len(mine) == len(true)
+    assert np.linalg.norm(mine[:, None] - true, axis=2).min(axis=1).max() < 0.2
+
+
+@pytest.mark.parametrize("lengths", [1.0, [1.0], {"up": 1.0}, [0.0, -1.0, 0.0]])
+def test_lengths_that_are_none_are_refused(lengths: Any) -> None:
+    with pytest.raises(CogmapError, match="'lengths'"):
+        Agent({"stay": (0,), "left": (-1,), "right": (1,)}).step({"sight": 0, "open": [True] * 3, "lengths": lengths})
+
+
 def test_a_cost_that_is_none_is_refused() -> None:
     with pytest.raises(CogmapError, match="cannot be measured by 'miles'"):
         Options(by="miles")

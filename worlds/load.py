@@ -28,7 +28,7 @@ def load_world(
     sights: Sights | None = None,
     seed: int = 0,
     sensors: Sequence[str] | None = None,
-    pose: Literal["motions", "displacement", "bearing", "none"] | None = None,
+    pose: Literal["motions", "displacement", "lengths", "bearing", "none"] | None = None,
     strong: bool = True,
 ) -> PlaceEnv:
     """The world of a built-in name, or else of a maze or graph file: a `MazeEnv` or a `GraphWorld`.

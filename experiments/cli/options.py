@@ -21,7 +21,7 @@ Noise = Annotated[
     list[str] | None,
     typer.Option(
         metavar="KIND=RATE",
-        help="What goes wrong, how often: sight, door, slip, fail or moved (odometry, heading: by how much); "
+        help="What goes wrong, how often: sight, door, miss, slip, fail or moved (odometry, heading: by how much); "
         "of a body in MiniGrid pixels, gain or slips. Several.",
     ),
 ]
@@ -71,9 +71,7 @@ Trace = Annotated[
 
 Told = Annotated[
     str | None,
-    typer.Option(
-        metavar="NAME", help="What a graph tells of a pose: motions, displacement, bearing or none. The most it can."
-    ),
+    typer.Option(metavar="NAME", help="What a graph tells of a pose: motions, displacement, lengths, bearing or none."),
 ]
 View = Annotated[
     str | None, typer.Option(metavar="NAME", help="Of a world of MiniGrid: symbolic (what it is unless given) or rgb.")

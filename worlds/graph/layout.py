@@ -96,6 +96,10 @@ class Layout:
         """The bearing of each way of `place`, in degrees."""
         return {} if self.bearings is None else {self.ways[i]: float(self.bearings[i]) for i in self._row(place)}
 
+    def told_lengths(self, place: Any) -> dict[Any, float]:
+        """How long each way of `place` is."""
+        return {} if self.lengths is None else {self.ways[i]: float(self.lengths[i]) for i in self._row(place)}
+
     def length(self, place: Any, way: Any) -> float | None:
         """How long a way is; 0 of none, None where nobody knows."""
         found = [i for i in self._row(place) if self.ways[i] == way]

@@ -22,7 +22,7 @@ DOUBTED = 4.0  # nats against a place hidden on a way from which on nobody doubt
 
 
 class Plane(MetricPose):
-    """A place lies where displacements lead to, relative to where the agent woke up, as far as they can be trusted.
+    """Positions in the plane, in metres, relative to the start, with uncertain displacements.
 
     Observations have `displacement`, what was measured of the last move, or `bearings` (see `Bearings`), or both. How
     far measurements err is learned (see `Odometer`). What they say of a loop that closes is more than is needed, and
@@ -88,7 +88,11 @@ class Plane(MetricPose):
         seen = seen_bearings(model, percept)
         if seen is not None and not (self.bearings.values[place] >= 0.0).any():
             fill(self.bearings, place, seen.tolist())
-            Joining(self, model, step).join(place)
+            if percept.lengths is not None:
+                fill(self.lengths, place, [-1.0 if each is None else each for each in percept.lengths])
+            joining = Joining(self, model, step)
+            joining.join(place)
+            joining.meet(place)
 
     def guessed(self, ways: Transition) -> Sequence[tuple[int, int, float]]:
         """Ways between places that were entered, walked in neither direction; doubted if longer than is usual."""
