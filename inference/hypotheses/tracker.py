@@ -53,7 +53,7 @@ MANY = 4096
 
 
 class Tracker:
-    """Where the agent is, and in what map.
+    """Weighted hypotheses about the map and about the agent's place in it.
 
     Attributes:
         scheme: what is known of ways beforehand.

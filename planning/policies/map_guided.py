@@ -32,7 +32,7 @@ Archive = dict[int, list[tuple[int, float]]]
 
 @dataclass(frozen=True, slots=True)
 class MapGuided(PolicyGenerator):
-    """A prefix tree over `LocalModel.successor` from each place the agent may be at.
+    """Policies that follow the map: a prefix tree over `LocalModel.successor` from each place the agent may be in.
 
     The value of a prefix is the first-visit value of the places on it, each counted once, plus the utility of its
     visits (staying at its end) less its risk of collision. Every kept prefix is a policy that then stays.
