@@ -23,7 +23,8 @@ def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str,
     """
     if not isinstance(observation, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance]
         kind = type(observation).__name__
-        raise CogmapError(f"observation: is a {kind}; give a mapping with keys {_keys(model)}")
+        hint = " (of what env.reset() and env.step() return, the first alone)" if isinstance(observation, tuple) else ""
+        raise CogmapError(f"observation: is a {kind}; give a mapping with keys {_keys(model)}{hint}")
     given = dict(observation)
     if "ways" in given and "ways" not in model.sensors and "open" in model.sensors:
         if "open" in given:

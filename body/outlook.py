@@ -32,19 +32,14 @@ class Sizes:
 
 @dataclass(frozen=True)
 class Outlook:
-    """A room as far as it was seen.
+    """A room as far as it was seen."""
 
-    Attributes:
-        room: its tiles.
-        exits: doors and gaps by direction (0 right, 1 down, 2 left, 3 up), in the order of their place in the wall.
-        unknown: tiles beside the room of which nothing is known, by direction.
-        needed: for each direction in which no exit is known, the tiles that have to be looked at; empty where there is
-            surely none.
-    """
-
-    room: frozenset[mg.Tile]
+    room: frozenset[mg.Tile]  # its tiles
+    # doors and gaps by direction (0 right, 1 down, 2 left, 3 up), in the order of their place in the wall
     exits: tuple[tuple[mg.Tile, ...], ...]
-    unknown: tuple[frozenset[mg.Tile], ...]
+    unknown: tuple[frozenset[mg.Tile], ...]  # tiles beside the room of which nothing is known, by direction
+    # for each direction in which no exit is known, the tiles that have to be looked at; empty where there is
+    # surely none
     needed: tuple[frozenset[mg.Tile], ...]
 
     @property

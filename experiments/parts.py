@@ -32,7 +32,7 @@ AGENTS = ("cogmap", "frontier", "random", *CSCG)
 
 
 class Maker(Protocol):
-    """Makes the agents of a sweep, each with a seed of its own; to go to other processes it must pickle."""
+    """Makes the agents of a sweep, each with its own seed. It must be picklable to run in other processes."""
 
     @property
     def agent(self) -> str:
@@ -50,7 +50,7 @@ class Maker(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """What an agent is made of, by name.
+    """The parts of an agent, by name.
 
     Attributes:
         agent: one of `AGENTS`.

@@ -26,23 +26,18 @@ Data = Mapping[str, Sequence[Hashable]] | Sequence[Mapping[str, Hashable]] | Map
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """What was learned.
+    """The result of `fit`."""
 
-    Attributes:
-        graph: the graph with the learned values; its learnable tables are new ones, which have the prior of the old
-            ones, and as counts this prior and the expected counts of the data.
-        method: `"em"` or `"variational"`.
-        objective: after each iteration, in nats, never falling: log-likelihood of the data (EM), or the evidence lower
-            bound (variational Bayes).
-        converged: whether it settled before the iterations ran out.
-        counts: expected counts of the data `[outcome, *parents]`, by label of the factor; those that share a table
-            share them.
-    """
-
+    # the graph with the learned values; its learnable tables are new ones, which have the prior of the old
+    # ones, and as counts this prior and the expected counts of the data
     graph: FactorGraph
-    method: str
+    method: str  # `"em"` or `"variational"`
+    # after each iteration, in nats, never falling: log-likelihood of the data (EM), or the evidence lower bound
+    # (variational Bayes)
     objective: tuple[float, ...]
-    converged: bool
+    converged: bool  # whether it settled before the iterations ran out
+    # expected counts of the data `[outcome, *parents]`, by label of the factor; those that share a table share
+    # them
     counts: Mapping[str, FloatArray]
 
 

@@ -12,7 +12,7 @@ from .errors import CogmapError
 
 
 class Column:
-    """A numpy array that grows along its first axis, amortised; what is set is logged, how long it is is not.
+    """A numpy array that grows along its first axis. Its values are logged, its length is not.
 
     Args:
         name: unique in its map.

@@ -21,7 +21,7 @@ from .visits import Visits
 
 
 class GenerativeModel:
-    """The factors of eq. 1, and the places that they are about.
+    """The generative model of eq. 1: its factors, and the places that they share.
 
     Args:
         motions: the actions.

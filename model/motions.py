@@ -34,25 +34,19 @@ class Motions:
     Where actions have no displacements, each pair that undoes each other, and each action of which that is not known,
     is given an axis of its own, so that there are some; they say nothing, and only `NoPose()` goes with them.
 
-    Attributes:
-        names: action names, in the order of the action indices.
-        displacements: one vector of `n` integers an action; exactly one is zero (`stay`).
-        reverse: without displacements, the index of the action that undoes each, -1 where nobody knows; () of all.
-        placed: whether displacements were given.
-        inverse: for each action the index of the action that undoes it, -1 where nobody knows.
-        stay: index of the action that goes nowhere; without displacements the one of that name.
-
     Raises:
         CogmapError: names repeat, vectors differ in length, an action has no inverse, there is not exactly one that
             stays, or `reverse` is none.
     """
 
-    names: tuple[str, ...]
-    displacements: tuple[Position, ...] = ()
+    names: tuple[str, ...]  # action names, in the order of the action indices
+    displacements: tuple[Position, ...] = ()  # one vector of `n` integers an action; exactly one is zero (`stay`)
+    # without displacements, the index of the action that undoes each, -1 where nobody knows; () of all
     reverse: tuple[int, ...] = ()
-    placed: bool = field(init=False)
+    placed: bool = field(init=False)  # whether displacements were given
+    # for each action the index of the action that undoes it, -1 where nobody knows
     inverse: tuple[int, ...] = field(init=False)
-    stay: int = field(init=False)
+    stay: int = field(init=False)  # index of the action that goes nowhere; without displacements the one of that name
 
     def __post_init__(self) -> None:
         if not self.names:

@@ -12,16 +12,12 @@ from .terms import Term
 class ExpectedFreeEnergy:
     """G(policy), term by term, summed over the steps of each policy; `energy["utility"]` is one term, `[P]`.
 
-    Attributes:
-        terms: what G is the sum of, with their signs.
-        values: `[T, P]` of each term and policy, in nats, before its sign.
-
     Raises:
         CogmapError: there is not one row of values a term.
     """
 
-    terms: tuple[Term, ...]
-    values: Floats
+    terms: tuple[Term, ...]  # what G is the sum of, with their signs
+    values: Floats  # `[T, P]` of each term and policy, in nats, before its sign
 
     def __post_init__(self) -> None:
         if self.values.ndim != 2 or len(self.values) != len(self.terms):

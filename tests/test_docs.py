@@ -47,6 +47,21 @@ def repository() -> ModuleType:
     return hook("repository")
 
 
+def test_what_stands_beside_a_field_is_in_the_reference() -> None:
+    pytest.importorskip("griffe")
+    source = """
+    @dataclass
+    class Record:
+        first: int  # one thing
+        # another, which is
+        # longer to tell
+        second: float = 0
+        third: str
+    """
+    told = hook("docstrings").fields_told(source)
+    assert told == {"first": "one thing", "second": "another, which is longer to tell"}
+
+
 def uris(nav: list[object]) -> Iterator[str]:
     for item in nav:
         for page in item.values() if isinstance(item, dict) else [item]:

@@ -30,21 +30,16 @@ if TYPE_CHECKING:
 class Maze:
     """An immutable maze.
 
-    Attributes:
-        name: what the maze is called in results and errors.
-        sights: the label seen in each room, by (row, column); all whole numbers >= 0 or all words.
-        walls: the pairs of adjacent rooms that have no door, in row-major order.
-        rooms: the rooms in row-major order.
-
     Raises:
         WorldError: no rooms, rooms that cannot be reached from one another (`UnreachableError`), bad positions or
             labels, walls that are not between adjacent rooms.
     """
 
-    name: str
+    name: str  # what the maze is called in results and errors
+    # the label seen in each room, by (row, column); all whole numbers >= 0 or all words
     sights: Mapping[Position, Label]
-    walls: frozenset[Door] = frozenset()
-    rooms: tuple[Position, ...] = field(init=False, repr=False, compare=False)
+    walls: frozenset[Door] = frozenset()  # the pairs of adjacent rooms that have no door, in row-major order
+    rooms: tuple[Position, ...] = field(init=False, repr=False, compare=False)  # the rooms in row-major order
 
     def __post_init__(self) -> None:
         if not self.sights:

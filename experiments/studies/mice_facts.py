@@ -112,15 +112,11 @@ def explored(seed: int, settings: Settings, *, most: int) -> list[int]:
 
 @dataclass(frozen=True, slots=True)
 class Trips:
-    """Ways home and to the port after the first water.
+    """Ways home and to the port after the first water."""
 
-    Attributes:
-        to_port: bouts in which the port was visited, and how often the way there from home was the shortest.
-        home: bouts, and how often the way home from the last end was the shortest.
-    """
-
+    # bouts in which the port was visited, and how often the way there from home was the shortest
     to_port: tuple[int, int]
-    home: tuple[int, int]
+    home: tuple[int, int]  # bouts, and how often the way home from the last end was the shortest
 
 
 def trips_of(route: Route, ground: Ground) -> Trips | None:

@@ -25,19 +25,14 @@ ZERO = -1e8  # stands for log 0
 class Loopy:
     """Loopy belief propagation, an approximation.
 
-    Attributes:
-        damping: part of the log of a message that stays as it was, 0 or more, below 1.
-        iterations: rounds at most.
-        tolerance: it has converged where no marginal changes by more in a round.
-
     Raises:
         CogmapError: an option is out of its range.
     """
 
     name: ClassVar[str] = "loopy"  # of the engine
-    damping: float = 0.5
-    iterations: int = 2000
-    tolerance: float = 1e-9
+    damping: float = 0.5  # part of the log of a message that stays as it was, 0 or more, below 1
+    iterations: int = 2000  # rounds at most
+    tolerance: float = 1e-9  # it has converged where no marginal changes by more in a round
 
     def __post_init__(self) -> None:
         if not (0 <= self.damping < 1 and self.iterations >= 1 and self.tolerance > 0):
@@ -61,17 +56,11 @@ class Loopy:
 
 @dataclass(frozen=True, slots=True)
 class LoopyReport:
-    """How loopy belief propagation went.
+    """How loopy belief propagation converged."""
 
-    Attributes:
-        converged: whether it settled; where it did not, its numbers mean little.
-        iterations: rounds that it took.
-        change: largest change of a marginal in the last of them.
-    """
-
-    converged: bool
-    iterations: int
-    change: float
+    converged: bool  # whether it settled; where it did not, its numbers mean little
+    iterations: int  # rounds that it took
+    change: float  # largest change of a marginal in the last of them
 
     def __str__(self) -> str:
         how = (

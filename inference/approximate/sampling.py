@@ -25,19 +25,14 @@ Part = tuple[tuple[int, ...], Table]
 class Sampling:
     """Importance sampling, an approximation with standard errors.
 
-    Attributes:
-        samples: number of samples.
-        seed: of the random numbers.
-        largest: entries of the largest product of the proposal; more make better samples.
-
     Raises:
         CogmapError: an option is out of its range.
     """
 
     name: ClassVar[str] = "sampling"  # of the engine
-    samples: int = 10_000
-    seed: int = 0
-    largest: float = 2e4
+    samples: int = 10_000  # number of samples
+    seed: int = 0  # of the random numbers
+    largest: float = 2e4  # entries of the largest product of the proposal; more make better samples
 
     def __post_init__(self) -> None:
         if self.samples < 2 or self.largest < 1:
@@ -71,20 +66,15 @@ class Sampling:
 
 @dataclass(frozen=True, slots=True)
 class SamplingReport:
-    """How good the samples are.
+    """How good the weighted samples are."""
 
-    Attributes:
-        samples: number of samples.
-        effective_samples: number of equally weighted samples that are worth as much; below some hundred the standard
-            errors cannot be relied on.
-        log_evidence_error: standard error of log Z.
-        log_evidence_bound: log Z is at most this; far above the estimate, the samples may have missed what matters,
-            and the standard errors with them.
-    """
-
-    samples: int
+    samples: int  # number of samples
+    # number of equally weighted samples that are worth as much; below some hundred the standard errors cannot
+    # be relied on
     effective_samples: float
-    log_evidence_error: float
+    log_evidence_error: float  # standard error of log Z
+    # log Z is at most this; far above the estimate, the samples may have missed what matters, and the standard
+    # errors with them
     log_evidence_bound: float
 
     def __str__(self) -> str:

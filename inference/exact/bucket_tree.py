@@ -14,26 +14,17 @@ from .tables import Table
 
 @dataclass(frozen=True, slots=True)
 class BucketTree(Solution):
-    """A tree of buckets in order of elimination; each is calibrated when it is asked for.
+    """A tree of buckets in order of elimination; each is calibrated when it is asked for."""
 
-    Attributes:
-        plan: the buckets.
-        given: index of each node that was sliced out.
-        inputs: the tables of the problem.
-        log_evidence: log Z.
-        over: for each bucket, one axis a node: over / by is P(x_i | S_i); once it is calibrated, P(x_i, S_i | evidence)
-            stands in its place.
-        by: for each bucket the sum of its `over`, as it was, over x_i.
-        memory: bytes that a joint may take that needs an elimination of its own.
-    """
-
-    plan: Buckets
-    given: dict[int, int]
-    inputs: Sequence[Table]
-    log_evidence: float
+    plan: Buckets  # the buckets
+    given: dict[int, int]  # index of each node that was sliced out
+    inputs: Sequence[Table]  # the tables of the problem
+    log_evidence: float  # log Z
+    # for each bucket, one axis a node: over / by is P(x_i | S_i); once it is calibrated, P(x_i, S_i | evidence)
+    # stands in its place
     over: list[FloatArray]
-    by: Sequence[FloatArray]
-    memory: float
+    by: Sequence[FloatArray]  # for each bucket the sum of its `over`, as it was, over x_i
+    memory: float  # bytes that a joint may take that needs an elimination of its own
     _calibrated: set[int] = field(default_factory=set[int], repr=False, compare=False)
 
     def joint(self, names: Sequence[str]) -> FloatArray:

@@ -24,30 +24,20 @@ class Problem:
     Nodes are variables, and the entries of large sparse factors. Observed variables and those of one label are sliced
     away. A variable that another node determines (a one-hot table between the two) is replaced by it where that costs
     nothing, see `substitution`; so a sparse factor is a node, its entries, that determines every variable in its scope.
-
-    Attributes:
-        graph: the graph asked about.
-        given: what is known.
-        names: name of each node, for people; tables speak of nodes by number.
-        cards: number of labels of each, all at least 2.
-        times: time step of each.
-        scopes: the nodes of each table.
-        tables: the tables, one axis a node.
-        log_scale: log of the product of all factors over known variables only.
-        where: for each variable of the graph, by number: (node that carries it or None, map from that one's labels to
-            its own, or the fixed index, or None where they are the same).
-        entries: where the number of the entry of a large sparse factor is, and the entries `[k, n]`, by its label.
     """
 
-    graph: FactorGraph
-    given: Given
-    names: Sequence[str]
-    cards: Sequence[int]
-    times: Sequence[int | None]
-    scopes: Sequence[Scope]
-    tables: Sequence[Table]
-    log_scale: float
+    graph: FactorGraph  # the graph asked about
+    given: Given  # what is known
+    names: Sequence[str]  # name of each node, for people; tables speak of nodes by number
+    cards: Sequence[int]  # number of labels of each, all at least 2
+    times: Sequence[int | None]  # time step of each
+    scopes: Sequence[Scope]  # the nodes of each table
+    tables: Sequence[Table]  # the tables, one axis a node
+    log_scale: float  # log of the product of all factors over known variables only
+    # for each variable of the graph, by number: (node that carries it or None, map from that one's labels to
+    # its own, or the fixed index, or None where they are the same)
     where: Mapping[int, Where]
+    # where the number of the entry of a large sparse factor is, and the entries `[k, n]`, by its label
     entries: Mapping[str, tuple[Where, IntArray]]
 
     def located(self, names: Sequence[str]) -> list[Where]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from math import exp, log
 
 from .chances import Chances
@@ -227,6 +227,28 @@ def _known_beyond(h: Hypothesis, key: Key, way: int) -> int | None:
 def _as_before(h: Hypothesis, source: int, way: int) -> float:
     """P(open) of the same way of the place that one comes from: corridors and walls go on."""
     return probability(way_odds(h, source, h.places[source], way))
+
+
+def before_reading(
+    h: Hypothesis, number: int, place: Place, way: int, view: Callable[[int], Place], find: Callable[[int], int]
+) -> float:
+    """P(open) of a way of a known place before anything was read of it: what `log_predictive` gave it.
+
+    Args:
+        h: the hypothesis.
+        number, place: the place.
+        way: the way.
+        view: the record of a place.
+        find: the place that another one is taken for.
+    """
+    source = max((one for source, _ in place.into if (one := find(source)) < number), default=NOWHERE)
+    if source == NOWHERE:
+        return h.open(way)
+    chances = h.chances
+    there = probability(
+        chances.odds + max(min(view(source).ways[way].net * chances.unit, chances.limit), -chances.limit)
+    )
+    return chances.alike * there + (1.0 - chances.alike) * h.open(way)
 
 
 def count_alike(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> None:

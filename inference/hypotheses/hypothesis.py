@@ -39,7 +39,7 @@ Label = tuple[int, int]
 
 
 class Hypothesis:
-    """A map, where the agent is in it, and what its rates have counted.
+    """A hypothesis: a map, the agent's place in it, and the counts of its rates.
 
     Attributes:
         scheme: what is known of ways beforehand.

@@ -15,15 +15,10 @@ TIE = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Why a policy that is no worse than the chosen one was not taken.
+    """Why a policy that is as good as the chosen one was not taken."""
 
-    Attributes:
-        name: in data.
-        words: for people.
-    """
-
-    name: str
-    words: str
+    name: str  # in data
+    words: str  # for people
 
 
 class Choice(ABC):

@@ -57,7 +57,7 @@ class Cut:
 
 
 class LocalCache:
-    """What plans read of the places of one map. Costs what has changed and what is asked for.
+    """A cache of what plans read of a map. It costs only what has changed and what is asked for.
 
     Args:
         map_: the map.

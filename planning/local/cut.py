@@ -24,30 +24,18 @@ HOPE = 0.4  # P(a way that is worth a try leads beyond) from which on plans coun
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What a policy generator is shown before the local model is cut, to ask for places further off.
+    """What a policy generator sees before the local model is built, so that it can ask for places further away."""
 
-    Attributes:
-        map: the map.
-        cache: of its places.
-        starts: where the agent may be.
-        near: all places within look-ahead of these, however improbable the way, ascending.
-        preferences: what is hoped for.
-        open: for each action, whether its way is sensed open now.
-        unseen: for each action, whether nothing senses its way.
-        look_ahead: steps that policies look ahead.
-        structure: hypotheses about the map, side by side; None where there is but one.
-        prices: `[K]` what each action is expected to cost from where the agent is, in usual moves; None of all alike.
-    """
-
-    map: MapView
-    cache: LocalCache
-    starts: Ints
-    near: Ints
-    preferences: Preferences
-    open: Sequence[bool]
-    look_ahead: int
-    structure: Structure | None = None
-    unseen: Sequence[bool] = ()
+    map: MapView  # the map
+    cache: LocalCache  # of its places
+    starts: Ints  # where the agent may be
+    near: Ints  # all places within look-ahead of these, however improbable the way, ascending
+    preferences: Preferences  # what is hoped for
+    open: Sequence[bool]  # for each action, whether its way is sensed open now
+    look_ahead: int  # steps that policies look ahead
+    structure: Structure | None = None  # hypotheses about the map, side by side; None where there is but one
+    unseen: Sequence[bool] = ()  # for each action, whether nothing senses its way
+    # `[K]` what each action is expected to cost from where the agent is, in usual moves; None of all alike
     prices: Floats | None = None
 
     @property
@@ -87,7 +75,7 @@ def local_model(
     unseen: Sequence[bool] = (),
     prices: Floats | None = None,
 ) -> LocalModel:
-    """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
+    """The generative model over the places that policies can reach from `belief`, with the doors `open_` now.
 
     Everything within `look_ahead` steps is in it, and what `beyond` asks for; or, where an `explorer` answers with
     options, the ways to them, undiscounted. Of a belief over more than `starts` places the likeliest remain (see

@@ -17,15 +17,10 @@ WIDE = 8  # actions from which on it pays to leave out those that no policy take
 
 @dataclass(frozen=True)
 class Transitions:
-    """P(s' | s, a) over `R` places, its few successors alone.
+    """P(s' | s, a) over `R` places, its few successors alone."""
 
-    Attributes:
-        successors: `[R, K, n]` places that an action may lead to; one may be named more than once.
-        probability: `[R, K, n]` of each; sums to one over the last axis, zero where a slot is unused.
-    """
-
-    successors: Ints
-    probability: Floats
+    successors: Ints  # `[R, K, n]` places that an action may lead to; one may be named more than once
+    probability: Floats  # `[R, K, n]` of each; sums to one over the last axis, zero where a slot is unused
 
     @classmethod
     def of(cls, dense: ArrayLike) -> Transitions:

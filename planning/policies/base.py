@@ -20,16 +20,12 @@ MAX_LOOK_AHEAD = 1_000
 class Policies:
     """The action sequences to compare.
 
-    Attributes:
-        actions: `[P, L]` action indices, rows unique; a policy that ends early stays to the end.
-        cut: promising prefixes that a bound on the search left out (zero: nothing was left out).
-
     Raises:
         CogmapError: `actions` is not a non-empty two-dimensional array of integers.
     """
 
-    actions: Ints
-    cut: int = 0
+    actions: Ints  # `[P, L]` action indices, rows unique; a policy that ends early stays to the end
+    cut: int = 0  # promising prefixes that a bound on the search left out (zero: nothing was left out)
 
     def __post_init__(self) -> None:
         shape, kind = np.shape(self.actions), np.asarray(self.actions).dtype.kind

@@ -39,24 +39,16 @@ def far_ways(around: Surroundings) -> Ints:
 
 @dataclass(slots=True)
 class _Search:
-    """Breadth first along likely ways, until nothing can be worth more than the best that was met.
+    """Breadth first along likely ways, until nothing can be worth more than the best that was met."""
 
-    Attributes:
-        around: what is searched.
-        most: what any place may be worth.
-        best: the greatest worth so far.
-        steps: from the start to the places that come next, `frontier`.
-        ends: places beyond look-ahead that are worth more than all before them.
-        parent: the place before each on the way there.
-    """
-
-    around: Surroundings
-    most: float
-    best: float = 0.0
-    steps: int = 0
+    around: Surroundings  # what is searched
+    most: float  # what any place may be worth
+    best: float = 0.0  # the greatest worth so far
+    steps: int = 0  # from the start to the places that come next, `frontier`
+    # places beyond look-ahead that are worth more than all before them
     ends: list[int] = field(default_factory=list[int])
     frontier: Ints = field(init=False)
-    parent: dict[int, int] = field(init=False)
+    parent: dict[int, int] = field(init=False)  # the place before each on the way there
 
     def __post_init__(self) -> None:
         self.frontier = self.around.starts

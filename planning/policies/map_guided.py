@@ -32,7 +32,7 @@ Archive = dict[int, list[tuple[int, float]]]
 
 @dataclass(frozen=True, slots=True)
 class MapGuided(PolicyGenerator):
-    """A prefix tree over `LocalModel.successor` from each place the agent may be at.
+    """Policies that follow the map: a prefix tree over `LocalModel.successor` from each place the agent may be in.
 
     The value of a prefix is the first-visit value of the places on it, each counted once, plus the utility of its
     visits (staying at its end) less its risk of collision. Every kept prefix is a policy that then stays.
@@ -51,15 +51,12 @@ class MapGuided(PolicyGenerator):
 
     `Policies.cut` is the number of prefixes that the beam dropped.
 
-    Attributes:
-        beam: prefixes kept a level, shared by the starts.
-
     Raises:
         CogmapError: `beam` is no whole number from 1 to `MAX_POLICIES`.
     """
 
     name: ClassVar[str] = "map_guided"
-    beam: int = 64
+    beam: int = 64  # prefixes kept a level, shared by the starts
 
     def __post_init__(self) -> None:
         whole = isinstance(self.beam, int | np.integer)  # pyright: ignore[reportUnnecessaryIsInstance]

@@ -22,7 +22,7 @@ DOUBTED = 4.0  # nats against a place hidden on a way from which on nobody doubt
 
 
 class Plane(MetricPose):
-    """A place lies where displacements lead to, relative to where the agent woke up, as far as they can be trusted.
+    """Positions in the plane, in metres, relative to the start, with uncertain displacements.
 
     Observations have `displacement`, what was measured of the last move, or `bearings` (see `Bearings`), or both. How
     far measurements err is learned (see `Odometer`). What they say of a loop that closes is more than is needed, and
