@@ -4,9 +4,9 @@
     python benchmarks/large_graphs.py --places 10000 --parts goal
 
 Random geometric graphs of mean degree 4, fifty sights at random; bearings are told, and displacements after a move. The
-agent is led through all places, depth first, and back, without planning. Then `known`: it wants nothing. `goal`: a place
-`--far` steps away is preferred, or the furthest of a smaller graph. `memory`: bytes a place of the agent as it was
-saved and loaded again, and with what plans keep of all places.
+agent is led through all places, depth first, and back, and plans nothing. Then `known`: it wants nothing. `goal`: a
+place `--far` steps away is preferred, or the furthest of a smaller graph. `memory`: bytes a place of the agent as it
+was saved and loaded again, and with what plans keep of all places.
 """
 
 from __future__ import annotations

@@ -33,7 +33,7 @@ def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int =
     one of `BY`; by steps where places have no positions.
     """
     map_ = around.map
-    if map_.visited.all():
+    if map_.visited.all() or (map_.pose.measures and not len(around.cache.where.never_entered()[0])):
         return _doubted(around, most)
     pose, reach = map_.pose, (1.0 + weight) / (1.0 - weight)
     search = _by_length(around, reach) if by == METRES and pose.measures else _by_steps(around, reach)

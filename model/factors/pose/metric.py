@@ -54,7 +54,7 @@ class MetricPose(NoPose):
         log, size = context.changes, len(context.motions)
         self.where = Column("where", np.float64, width=AXES, fill=UNKNOWN, changes=log)
         self.bearings = Column("bearings_of", np.float64, width=size, fill=-1.0, changes=log)
-        self.lengths = Column("lengths_of", np.float64, width=size, fill=-1.0, changes=log)
+        self.lengths = Column("lengths_of", np.float32, width=size, fill=-1.0, changes=log)
         self.source = Column("source", np.int64, width=2, fill=-1, changes=log)
         self.been = Column("been", np.int64, width=RECENT, fill=-1, changes=log)
         self.walks = Column("walks", np.float64, width=WALK, fill=-1.0, changes=log)
