@@ -1,7 +1,5 @@
 """A body for MiniGrid: it sees seven by seven tiles, and finds its way through rooms."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from typing import Any, Protocol
 

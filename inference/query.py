@@ -29,11 +29,7 @@ Engine = str | Loopy | Sampling
 
 
 def _taken(graph: FactorGraph) -> FactorGraph:
-    """A copy of the graph, which later changes do not reach.
-
-    Raises:
-        CogmapError: it is no graph.
-    """
+    """A copy of the graph, which later changes do not reach. Raises CogmapError: it is no graph."""
     if not isinstance(graph, FactorGraph):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise CogmapError(f"inference: {type(graph).__name__} is no factor graph; give one, such as agent.graph")
     return graph.copy()

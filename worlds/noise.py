@@ -1,7 +1,5 @@
 """Noise in a world, as a Gymnasium wrapper."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any

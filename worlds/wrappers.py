@@ -13,8 +13,7 @@ from .motions import Motions
 from .protocol import HasChart, Observation, World, offered
 from .spaces import PerAction
 
-_LISTED = ("bearings", "lengths")
-"""What is told of each way."""
+_LISTED = ("bearings", "lengths")  # What is told of each way
 
 
 class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):

@@ -15,8 +15,7 @@ from .records import NOWHERE, Place
 from .squares import around, tally
 from .uniting import Union
 
-FACTOR = 0.6
-"""Share of the places, on average, among which a loop that closes had to choose while the map grew."""
+FACTOR = 0.6  # Share of the places, on average, among which a loop that closes had to choose while the map grew
 
 
 class Links(NamedTuple):
