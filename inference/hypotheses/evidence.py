@@ -29,10 +29,8 @@ def log_likelihood(h: Hypothesis, number: int, sensed: Sensed) -> float:
 
 def was_rebuilt(h: Hypothesis, number: int, place: Place, sensed: Sensed) -> bool:
     """Whether the ways of a place more probably all are others than they were, by how they are read."""
-    against = sum(
-        reading is not None and way.net * (reading - 0.5) < 0.0
-        for way, reading in zip(place.ways, sensed.ways, strict=True)
-    )
+    ways, looks = place.ways, sensed.ways
+    against = sum((look := looks[way]) is not None and ways[way].net * (look - 0.5) < 0.0 for way in h.awake)
     if against < 2:
         return False
     rebuilt, q = h.chances.rebuilt, _ways_as_they_were(h, number, place, sensed)
@@ -254,7 +252,8 @@ def before_reading(
 def count_alike(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> None:
     """What the ways of a place never seen say of how often they are as those of the place it was entered from."""
     chances, counts = h.chances, h.counts
-    for way, reading in enumerate(sensed.ways):
+    for way in h.awake:
+        reading = sensed.ways[way]
         if reading is None or way == back or (key is not None and _known_beyond(h, key, way) is not None):
             continue
         before = chances.alike * reading_probability(chances, _as_before(h, source, way), reading)

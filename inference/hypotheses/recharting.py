@@ -51,7 +51,7 @@ def recharted(h: Hypothesis, number: int, *, floor: float) -> Iterator[Hypothesi
     inverse = h.scheme.inverse
     if h.scheme.displacements is None or inverse is None:
         return
-    for way in range(h.scheme.count):
+    for way in h.awake:
         to = h.places[number].ways[way].to
         if to == NOWHERE or not _off(h, Link(number, way, to)):
             continue
@@ -140,7 +140,8 @@ def _walked_once(h: Hypothesis, one: int, other: int) -> Link | None:
     assert h.scheme.inverse is not None
     found: list[Link] = []
     for number, to in ((one, other), (other, one)):
-        for index, way in enumerate(h.places[number].ways):
+        for index in h.awake:
+            way = h.places[number].ways[index]
             if way.to == to and way.walks:
                 if way.walks > 1 or h.places[to].ways[h.scheme.inverse[index]].to != number:
                     return None
@@ -259,4 +260,4 @@ def _cut(h: Hypothesis, link: Link) -> None:
 
 def _beside(h: Hypothesis, number: int) -> set[int]:
     place = h.places[number]
-    return {to for way in range(h.scheme.count) if (to := h.neighbour(place, way)) != NOWHERE}
+    return {to for way in h.awake if (to := h.neighbour(place, way)) != NOWHERE}

@@ -112,7 +112,7 @@ def _fragment(h: Hypothesis, number: int, history: History) -> set[int]:
         place = h.places[one]
         if not _long_ago(h, place, history) or len(place.recent) >= RECENT or len(found) > LARGEST:
             return set()
-        ahead = [h.neighbour(place, way) for way in range(h.scheme.count)]
+        ahead = [h.neighbour(place, way) for way in h.awake]
         for other in (*ahead, *(source for source, _ in place.into)):
             if other != NOWHERE and other not in found:
                 found.add(other)

@@ -117,7 +117,7 @@ class Union:
         if kept == other or self._attempt((kept, other), self._cost_of_moves(fork)):
             return
         number = self.find(fork.number)
-        astray = fork.walks * -log(self.h.chances.astray / self.h.scheme.count) if fork.walks else inf
+        astray = fork.walks * -log(self.h.chances.astray / len(self.h.awake)) if fork.walks else inf
         for end in [number, *(self.find(way.to) for way in self.view(number).ways if way.to != NOWHERE)]:
             fits = end == other or self.view(end).label() == self.view(other).label()
             if fits and end != kept and astray < self._cost_of_moves(fork):

@@ -30,6 +30,11 @@ class MapHypotheses(Protocol):
         """`[H]` where the agent is under each."""
         ...
 
+    @property
+    def moves(self) -> Sequence[int]:
+        """The actions that lead anywhere under any of them."""
+        ...
+
     def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
         """The place that an action most probably leads to, the same where it is blocked, None for one never seen."""
         ...
