@@ -1,7 +1,5 @@
 """A body for MiniGrid: it sees seven by seven tiles, and finds its way through rooms."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from typing import Any, Protocol
 
@@ -35,7 +33,7 @@ class Limbs(Protocol):
 
 
 class MiniGridBody:
-    """Goes from room to room in any MiniGrid world, by the view alone: no compass, no true state, no grid.
+    """Moves from room to room in any MiniGrid world by its view alone: no compass, no true state, no grid.
 
     Rooms are chunks of space bounded by doors and gaps. Ways are the four directions of a frame of its own, in which
     it faced up where it woke.

@@ -1,7 +1,5 @@
 """Where in its room a body is, and what the room is like: a filter over both, for legs that slip."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from typing import NamedTuple
 
@@ -15,10 +13,8 @@ from .room_map import CENTRE, SIDE, UNKNOWN, Pose, RoomMap
 LEFT, RIGHT, FORWARD, PICKUP, DROP, TOGGLE, NOTHING = range(7)
 """MiniGrid's actions."""
 
-UP = 3
-"""The way a body faces where it wakes up, whatever that is in the world."""
-SURE = 0.7
-"""Belief in one pose from which on it counts as known."""
+UP = 3  # The way a body faces where it wakes up, whatever that is in the world
+SURE = 0.7  # Belief in one pose from which on it counts as known
 _KEEP, _FEW = 1e-4, 16  # of each way to face: where it stands shows sooner, and matters less
 _TELLING = 3  # tiles that differ, from which on a view tells two beliefs apart
 

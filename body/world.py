@@ -20,7 +20,7 @@ _NAMES = ("right", "down", "left", "up")  # the ways of a body by their numbers,
 
 
 class EmbodiedWorld(gym.Env[Observation, Any]):
-    """A room maze of MiniGrid as the agent above lives in it: an action is a way, an observation a percept.
+    """A MiniGrid room maze as the upper-level agent sees it: actions are ways, observations are percepts.
 
     The body sees the view alone. Its frame, as it is once it has looked round, is called as the map is drawn, which
     changes names and nothing else. The truth is in `info`: `position`, `low_level_steps`, `tiles_seen`.

@@ -6,7 +6,7 @@ from .errors import CogmapError
 
 
 class Domain:
-    """An append-only list of distinct hashable labels, numbered as they are met."""
+    """An append-only list of distinct hashable labels, numbered in the order in which they were added."""
 
     __slots__ = ("_index", "_labels", "name")
 

@@ -1,7 +1,5 @@
 """Noise in a world, as a Gymnasium wrapper."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
@@ -24,7 +22,7 @@ _NO_SENSORS = ("open", "ways", "bearings", "lengths", "displacement")
 
 
 class NoisyWorld(gym.Wrapper[Observation, Any, Observation, Any]):
-    """A world that errs. Each kind of noise has a stream of draws of its own, which `reset(seed=)` seeds.
+    """A wrapper that adds noise to a world. Each kind of noise has its own random stream, seeded by `reset(seed=)`.
 
     What really happened is in `info` alone: `taken`, the action carried out; `failed` and `moved`, truth values.
 

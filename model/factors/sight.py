@@ -22,7 +22,7 @@ Reading = int | Mapping[int, float]  # the number of a label, or likelihoods of 
 
 
 class Sight(Sensor):
-    """Senses one label in each place; labels are met as they come.
+    """A sensor of one label per place. New labels are added when they are first seen.
 
     Args:
         name: the key in observations.
