@@ -1,7 +1,5 @@
 """Ways that are only thought to lead where they do, kept from plan to plan until something changes at their place."""
 
-from __future__ import annotations
-
 from .view import MapView
 
 GREAT = 1.0  # nats of doubt for which a longer way is taken

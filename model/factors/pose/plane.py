@@ -96,7 +96,7 @@ class Plane(MetricPose):
             joining.meet(place)
 
     def guessed(self, ways: Transition, places: Sequence[int] | None = None) -> Sequence[tuple[int, int, float]]:
-        """Ways between places that were entered, walked in neither direction; in doubt if a place may hide there."""
+        """Ways between places entered, walked in neither direction; doubted if a place may be hidden on them."""
         first = self.context.visits.first.values
         at = self.context.visits.order.values if places is None else np.array(places, dtype=np.int64)
         at = at[(at < len(first)) & (first[np.minimum(at, len(first) - 1)] >= 0)] if len(at) else at
@@ -119,7 +119,7 @@ class Plane(MetricPose):
         """Whether another way leads in nearly the same direction, so that one may be taken for the other."""
         theirs = self.bearings.values[place]
         apart = np.abs((theirs - theirs[action] + 180.0) % 360.0 - 180.0)
-        return np.count_nonzero((apart <= 2.0 * ROUGH) & (theirs >= 0.0)) > 1
+        return bool(np.count_nonzero((apart <= 2.0 * ROUGH) & (theirs >= 0.0)) > 1)
 
     def _walked_back(self, ways: Transition, place: int, to: int) -> bool:
         return any(ways.beyond(place, action) == to for action in np.flatnonzero(ways.walked.values[place]).tolist())
