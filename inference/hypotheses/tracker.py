@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from heapq import nlargest
 from math import exp, inf, log
 from typing import Any
@@ -247,7 +248,7 @@ class Tracker:
             return found
         history, first = self.history, first_told(self.history.start, self.time, tries)
         self._tries = tries_until(self.time, tries)
-        other = Tracker(self.scheme, self.options)
+        other = Tracker(self.scheme, replace(self.options, most=max(self.options.most // 2, 1)))
         other.time, other.awake, other._partly = first, self.awake, True
         for time in range(first, self.time + 1):
             other.step(history[time], [n - 1 for n in self.labels])
