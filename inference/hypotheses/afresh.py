@@ -22,6 +22,9 @@ from .records import Place
 FIRST, LATER = 32, 256
 """Steps after which it is tried first; and steps between two tries at most."""
 
+LARGEST = 128
+"""Places of a map that is begun anew at most: it takes as long as the steps that are told."""
+
 SHARES = (0.5, 0.25, 0.125)
 """Shares of the steps that are left out, in turn."""
 
@@ -37,6 +40,11 @@ def is_odd(h: Hypothesis, tries: int) -> bool:
     counts = h.counts
     odd = counts.yes[ELSEWHERE] + counts.yes[MOVED] + counts.yes[RELINKED] + counts.no[UNDONE]
     return odd + (tries % 2) * (counts.of(FAILS)[0] + counts.of(ASTRAY)[0]) > ODD
+
+
+def is_known(h: Hypothesis, start: int) -> bool:
+    """Whether the map is small enough to be begun anew, and all of it was seen in the steps that are remembered."""
+    return h.size <= LARGEST and all(h.places[number].recent[-1] >= start for number in h.places)
 
 
 def tries_until(time: int, tries: int) -> int:

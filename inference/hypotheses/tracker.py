@@ -9,7 +9,7 @@ from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
-from .afresh import first_told, is_odd, lay_over, tries_until
+from .afresh import first_told, is_known, is_odd, lay_over, tries_until
 from .attempts import CONTRADICTED, NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
@@ -248,6 +248,8 @@ class Tracker:
             return found
         history, first = self.history, first_told(self.history.start, self.time, tries)
         self._tries = tries_until(self.time, tries)
+        if not is_known(found[0], history.start):
+            return found
         other = Tracker(self.scheme, replace(self.options, most=max(self.options.most // 2, 1)))
         other.time, other.awake, other._partly = first, self.awake, True
         for time in range(first, self.time + 1):
