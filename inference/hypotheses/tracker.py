@@ -122,7 +122,7 @@ class Tracker:
         self._partly = self._partly or sensed.others is not None
         self.labels, self.awake = tuple(n + 1 for n in labels), awake_ways(self.scheme, self.awake, sensed)
         for h in self.hypotheses:
-            h.awake = self.awake
+            h.wake(self.awake)
         if self.hypotheses:
             self.hypotheses = self._afresh(self._advanced(sensed))
         else:
