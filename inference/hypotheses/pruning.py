@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from .hypothesis import Hypothesis
+from .layered import Kept
 from .logs import log_add, log_sum
 from .records import NOWHERE, Place, Position
 
@@ -15,17 +16,23 @@ def alike(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether two hypotheses say the same of where the agent is, and of the map as far as it is linked.
 
     A breadth-first search from the agent's place walks through both maps side by side; where ways lead, sights and,
-    with poses, positions seen from there are compared, until something differs.
+    with poses, positions seen from there are compared, until something differs. What nobody has written to since the
+    two were one is the same in both, by its number, so that the search begins where it was left.
     """
     a, b = one.places[one.here], other.places[other.here]
     if (one.size, one.digest) != (other.size, other.digest) or one.crowd is not None or other.crowd is not None:
         return False
     if one.periods.get(a.frame, ()) != other.periods.get(b.frame, ()):
         return False
-    pairs, back = {one.here: other.here}, {other.here: one.here}
     order = [(one.here, other.here)]
+    kept = one.places.kept(other.places) if _stands(one, a) == _stands(other, b) else None
+    if kept is not None:
+        order += [(number, number) for number in kept.changed if _linked(one, number, kept) and number != one.here]
+    pairs, back = dict(order), {its: mine for mine, its in order}
     for mine, its in order:
         here, there = one.places[mine], other.places[its]
+        if here is there and kept is not None:
+            continue
         if here.label() != there.label() or _seen(one, a, here) != _seen(other, b, there):
             return False
         for way, its_way in ((here.ways[k], there.ways[k]) for k in one.awake):
@@ -34,11 +41,23 @@ def alike(one: Hypothesis, other: Hypothesis) -> bool:
             if way.to == NOWHERE:
                 continue
             if way.to not in pairs and its_way.to not in back:
+                if kept is not None and way.to != its_way.to and (way.to in kept or its_way.to in kept):
+                    return False
                 pairs[way.to], back[its_way.to] = its_way.to, way.to
                 order.append((way.to, its_way.to))
             elif pairs.get(way.to) != its_way.to:
                 return False
     return True
+
+
+def _stands(h: Hypothesis, here: Place) -> object:
+    return h.here, here.frame, here.position
+
+
+def _linked(h: Hypothesis, number: int, kept: Kept[int]) -> bool:
+    """Whether a place that was written to is the same one in both, since a place that was not leads there."""
+    place = h.places.get(number)
+    return place is not None and any(source in kept for source, _ in place.into)
 
 
 def _seen(h: Hypothesis, start: Place, place: Place) -> object:
