@@ -9,8 +9,6 @@ from .layered import Kept
 from .logs import log_add, log_sum
 from .records import NOWHERE, Place, Position
 
-SMALL = 200  # places; to look through all of a larger map costs more than it tells
-
 
 def alike(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether two hypotheses say the same of where the agent is, and of the map as far as it is linked.
@@ -88,20 +86,20 @@ def merged(hypotheses: Sequence[Hypothesis], proposed: Sequence[Hypothesis] = ()
 
 def _kept(kept: dict[object, list[Hypothesis]], h: Hypothesis) -> Hypothesis:
     """The one that says the same, or this one, which is kept from now on."""
-    group = kept.setdefault((h.digest, _corner(h)), [])
+    group = kept.setdefault((h.digest, _lies(h)), [])
     same = next((other for other in group if alike(other, h)), h)
     if same is h:
         group.append(h)
     return same
 
 
-def _corner(h: Hypothesis) -> Position | None:
-    """Where the first corner of the chart lies as seen from the agent, which tells at once most that are not alike."""
+def _lies(h: Hypothesis) -> Position | None:
+    """How the chart lies about the agent (size, sums of coordinates), which tells most apart that are not alike."""
     here = h.places[h.here]
-    if not here.position or h.periods.get(here.frame) or h.size > SMALL:
+    if not here.position or h.periods.get(here.frame):
         return None
-    first = min(position for frame, position in h.at if frame == here.frame)
-    return tuple(x - y for x, y in zip(first, here.position, strict=True))
+    size, *sums = h.laid[here.frame]
+    return (size, *(total - size * x for total, x in zip(sums, here.position, strict=True)))
 
 
 def normalised(hypotheses: Sequence[Hypothesis], *, drop: float, most: int) -> tuple[list[Hypothesis], float]:
