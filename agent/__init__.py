@@ -1,7 +1,5 @@
 """The loop that joins model, inference and planning: perceive, plan, act."""
 
-from __future__ import annotations
-
 from .agent import Agent
 from .following import Followed, follow
 from .pomdp import Pomdp
@@ -13,14 +11,6 @@ from .trace_table import trace_table
 from .turning import TurningAgent
 
 __all__ = [
-    "Agent",
-    "Followed",
-    "GivenPreferences",
-    "Pomdp",
-    "Settings",
-    "StepRecord",
-    "TurningAgent",
-    "follow",
-    "read_header",
+    "Agent", "Followed", "GivenPreferences", "Pomdp", "Settings", "StepRecord", "TurningAgent", "follow", "read_header",
     "trace_table",
-]
+]  # fmt: skip

@@ -55,10 +55,11 @@ class Agent(Filed):
         planner: how it plans: policies, terms of G, choice; `Planner()` unless given.
         settings: every number; see `Settings`.
         seed: of the generator that breaks ties and draws policies.
-        map: what is known beforehand: a networkx graph of places, or a file of one (node-link JSON or GraphML). Nodes
-            have what each sensor senses there under its name, and maybe a `position`; edges say in `way` which action
-            they are. Ways that it does not have are shut. Places get numbers in its order; where in it the agent wakes
-            up it finds out. A map in several contexts says so in its attribute `contexts`; see `Contexts`.
+        map: what is known beforehand: a networkx graph of places, or a file of one (node-link JSON, GraphML, or YAML
+            of ROS). Nodes have what each sensor senses there under its name, and maybe a `position`; edges say in `way`
+            which action they are, or all are counted by bearing at each place. Ways that it does not have are shut.
+            Places get numbers in its order; where in it the agent wakes up it finds out. A map in several contexts says
+            so in its attribute `contexts`; see `Contexts`.
         keep: of so many last steps at least `trace` has every record and `map.growth` every event, of those before it
             what is still there; None of all of them, however many.
 
@@ -243,8 +244,6 @@ class Agent(Filed):
             revised=state.revised,
         )
         self.trace.append(record)
-        if self._keep is not None and len(self.trace) >= 2 * self._keep:
-            del self.trace[: -self._keep]
         state.action, state.acted = plan.action, True
         return plan.action
 

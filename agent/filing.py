@@ -1,8 +1,7 @@
 """An agent as a file, and back."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from os import PathLike
 from typing import Any, Self
 
@@ -16,8 +15,7 @@ from .parts import MissingPart, made_of
 from .settings import Settings
 from .wholeness import Whole
 
-KEEP = 10_000
-"""Steps of which the trace and the log of growth keep everything, unless told otherwise."""
+KEEP = 10_000  # steps of which the trace and the log of growth keep everything, unless told otherwise
 
 
 class Filed(Whole):
@@ -75,7 +73,7 @@ class Filed(Whole):
             "parts": self.parts,
             "rng": self.rng.bit_generator.state,
             "map": map_,
-            "state": pack(self._state, arrays, "state"),
+            "state": pack(replace(self._state, begun=0), arrays, "state"),
         }
         if self._recognising:
             header["recognition"] = self._recognition.state(arrays)

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
+from math import atan2, degrees
 from os import PathLike, fspath
-from typing import Any, NamedTuple, cast
+from pathlib import PurePath
+from typing import Any, cast
 
-from ..model import CogmapError, parse_json, read_file, unpack_gzip
+from ..model import CogmapError, Motions, MotionSpec, parse_json, read_file, unpack_gzip
 
 Facts = Mapping[str, Any]
 
+LARGEST_YAML = 16 * 2**20  # bytes of YAML that are read, which takes long
 
-class GivenWay(NamedTuple):
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GivenWay:
     """One way: from, to, its attributes, and whether it is an undirected edge walked against how it was written."""
 
     source: Hashable
@@ -21,31 +28,26 @@ class GivenWay(NamedTuple):
     reverse: bool
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class KnownMap:
     """A graph of places, before anybody has been there.
-
-    Attributes:
-        where: what errors call it.
-        attributes: of the graph.
-        nodes: attributes by id, in order.
-        ways: all that are open.
-        contexts: those that the world may be in; none where there is but one.
 
     A graph whose attribute `contexts` lists some is taken once for each: a node may say in `contexts` what differs,
     such as `{"left": {"sight": "reward"}}`; an edge may say `only`, the contexts in which it is open, and `then`, the
     context that it leads to (the way that takes a key).
     """
 
-    where: str
-    attributes: Facts
-    nodes: Mapping[Hashable, Facts]
-    ways: tuple[GivenWay, ...]
-    contexts: tuple[Hashable, ...] = ()
+    where: str  # what errors call it
+    attributes: Facts  # of the graph
+    nodes: Mapping[Hashable, Facts]  # attributes by id, in order
+    ways: tuple[GivenWay, ...]  # all that are open
+    contexts: tuple[Hashable, ...] = ()  # those that the world may be in; none where there is but one
 
     @classmethod
     def of(cls, source: Any) -> KnownMap:
-        """The same of a networkx graph, or of a file of one: node-link JSON (as networkx writes it) or GraphML.
+        """The same of a networkx graph, or of a file of one: every file that `read_graph` makes a world of.
+
+        That is node-link JSON (as networkx writes it), GraphML, and topological maps of ROS in YAML.
 
         Of the map of an agent, what was only imagined is left out.
 
@@ -102,14 +104,40 @@ class KnownMap:
                 known = ", ".join(map(repr, contexts))
                 raise CogmapError(f"{self.where}: {what} speaks of context {k!r}; the contexts are {known}")
 
+    @cached_property
+    def listed(self) -> Mapping[GivenWay, int]:
+        """Where no way is named, how many ways of its place come before each: by bearing, as worlds list them."""
+        if any("way" in way.facts or "action" in way.facts for way in self.ways):
+            return {}
+        ranks, before = dict[GivenWay, int](), Counter[Hashable]()
+        for way in sorted(self.ways, key=self._bearing):
+            ranks[way] = before[way.source]
+            before[way.source] += 1
+        return ranks
+
+    def _bearing(self, way: GivenWay) -> float:
+        """Degrees from +y, clockwise: what the way says, else where its ends lie; 0 where nobody knows."""
+        ends = [position_of(self.nodes[node]) for node in (way.source, way.target)]
+        try:
+            if "bearing" in way.facts:
+                return float(way.facts["bearing"]) % 360.0
+            if ends[0] is None or ends[1] is None:
+                return 0.0
+            right, up = (float(b) - float(a) for a, b in zip(*(end[:2] for end in ends if end), strict=True))
+            return degrees(atan2(right, up)) % 360.0
+        except (TypeError, ValueError) as error:
+            raise CogmapError(f"{self.where}: where {way.source!r} lies is no numbers; give x and y") from error
+
     @property
-    def motions(self) -> dict[str, tuple[int, ...]]:
-        """Names and displacements of the actions, with one that stays.
+    def motions(self) -> MotionSpec | dict[str, tuple[int, ...]]:
+        """The actions: names and displacements, with one that stays; of a robot's map as many ways as a place has.
 
         Raises:
             CogmapError: the graph does not say.
         """
         given = self.attributes.get("motions")
+        if given is None and self.listed and "robot" in self.attributes:
+            return Motions(("stay", *(f"way {i + 1}" for i in range(max(self.listed.values()) + 1))))
         if not isinstance(given, Mapping) or not given:
             raise CogmapError(f"{self.where}: it does not say 'motions'; give the agent some: Agent(motions, map=...)")
         try:
@@ -119,6 +147,12 @@ class KnownMap:
         if not any(any(vector) for vector in moves.values()) or all(any(vector) for vector in moves.values()):
             moves["stay"] = (0,) * len(next(iter(moves.values())))
         return moves
+
+
+def position_of(facts: Facts) -> Any:
+    """Where a node lies: its `position`, or its `x`, `y` and perhaps `z`; None where it does not say."""
+    apart = tuple(facts[axis] for axis in "xyz" if axis in facts)
+    return facts.get("position", apart if "x" in facts and "y" in facts else None)
 
 
 def _ways(graph: Any) -> Iterator[GivenWay]:
@@ -141,7 +175,10 @@ def _read(source: Any) -> Any:
     try:
         content = read_file(path)
         content = unpack_gzip(path, content) if path.endswith(".gz") else content
-        if path.removesuffix(".gz").endswith(".graphml"):
+        suffix = PurePath(path.removesuffix(".gz")).suffix.lower()
+        if suffix in (".yaml", ".yml", ".tmap", ".tmap2"):
+            return _topological(content)
+        if suffix in (".graphml", ".xml"):
             return _unwritten(nx.parse_graphml(content.decode()))
         data: Any = parse_json(content)
         return nx.node_link_graph(data, edges="edges" if "edges" in data else "links")
@@ -153,7 +190,28 @@ def _read(source: Any) -> Any:
         ) from error
     except Exception as error:  # whatever networkx makes of what is no graph
         kind = type(error).__name__
-        raise CogmapError(f"map {path}: it is no graph in node-link JSON or GraphML ({kind}); give one") from error
+        kinds = "node-link JSON, GraphML or topological YAML"
+        raise CogmapError(f"map {path}: it is no graph in {kinds} ({kind}); give one") from error
+
+
+def _topological(content: bytes) -> Any:
+    """The graph of a topological map of ROS: nodes with a name, a pose and edges to others."""
+    import networkx as nx
+    import yaml
+
+    if len(content) > LARGEST_YAML:
+        raise CogmapError(f"map: it has {len(content):,} bytes of YAML; {LARGEST_YAML:,} are read at most")
+    found = yaml.load(content, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    listed = [entry.get("node", entry) for entry in (found["nodes"] if isinstance(found, dict) else found)]
+    graph: Any = nx.DiGraph(robot=True)
+    for node in listed:
+        pose, told = node.get("pose") or {}, node.get("properties") or {}
+        graph.add_node(node["name"], **(pose.get("position") or {}), **{k: told[k] for k in ("sight",) if k in told})
+    ends = [(node["name"], edge["node"]) for node in listed for edge in node.get("edges") or ()]
+    if nowhere := [end for end in ends if end[1] not in graph]:
+        raise CogmapError(f"map: the edge from {nowhere[0][0]!r} leads to {nowhere[0][1]!r}, which is no node")
+    graph.add_edges_from(ends)
+    return graph
 
 
 def _unwritten(graph: Any) -> Any:

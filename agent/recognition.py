@@ -1,7 +1,5 @@
 """Which place is which: hypotheses about the map, and the map as the most probable one has it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from math import exp
@@ -36,14 +34,12 @@ from .structure import OpenQuestion
 
 Arrays = dict[str, NDArray[Any]]
 
-HARDLY = 1.5
-"""Ways that were misread so far, as is expected, up to which the last look at one is believed."""
+HARDLY = 1.5  # Ways that were misread so far, as is expected, up to which the last look at one is believed
+DECIDED = 0.8  # Probability from which on another hypothesis than the one that is followed changes the map
+SURER = 0.98  # Share of what hypotheses hold of a place from which on the filter need not be overruled
 
-DECIDED = 0.8
-"""Probability from which on another hypothesis than the one that is followed changes the map."""
-
-SURER = 0.98
-"""Share of what hypotheses hold of a place from which on the filter need not be overruled."""
+SLIPPERY = 0.05
+"""Share of actions that go astray from which on the map says where they lead by what else may be carried out."""
 
 RULED_OUT, UNSEEN = 0.01, 0.3
 """Odds beside the most probable hypothesis down to which the one that is followed may be followed on; and where no way
@@ -70,11 +66,24 @@ class Recognition:
         self.followed: Hypothesis | None = None
         self.moved = False
         self.looked: tuple[bool | float | None, ...] | None = None
+        map_.transitions.carried_out = self.carried_out
 
     @property
     def rates(self) -> list[RateOf]:
         """What is learned of how this world is, as the hypothesis that is followed has it."""
         return [] if self.followed is None else rates_of(self.followed)
+
+    def carried_out(self, action: int) -> NDArray[np.float64] | None:
+        """`[K]` P(action carried out | `action` is given); None where actions hardly ever go astray."""
+        astray = 0.0 if self.followed is None else self._now.chances.astray
+        if astray < SLIPPERY:
+            return None
+        ways, motions, stays = self.sensing.ways, self._map.motions, NOWHERE
+        given = ways.get(action, stays)
+        slips = [astray * self._now.slip(given, ways.get(taken, stays)) for taken in range(len(motions))]
+        slips[action] = 0.0
+        slips[action] = 1.0 - sum(slips)
+        return np.array(slips)
 
     @property
     def _now(self) -> Hypothesis:
@@ -254,11 +263,7 @@ class Recognition:
         return {"tracker": tracker[0], **own}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
-        """Take over what `state` gave.
-
-        Raises:
-            CogmapError: it is damaged, or of another map.
-        """
+        """Take over what `state` gave. Raises CogmapError: it is damaged, or of another map."""
         prefix = "tracker."
         own = {name.removeprefix(prefix): arrays[name] for name in arrays if name.startswith(prefix)}
         self.tracker = Tracker.restored(self.sensing.scheme, self.tracker.options, (state["tracker"], own))

@@ -1,7 +1,5 @@
 """Files of schema 2, made into the present one. What was learned before cannot be taken back any more."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -16,8 +14,7 @@ from .packing import Arrays, pack
 from .state import Choice, GivenPreferences, State
 
 _COLUMNS = {"position_of": "position_of.values", "place_at": "place_at.values", "visits": "visits.order"}
-_PARTS = ("places", "growth", "policies", "beam", "choice")
-"""Names among the settings that are parts now."""
+_PARTS = ("places", "growth", "policies", "beam", "choice")  # names among the settings that are parts now
 
 _SCALARS = ("evidence", "moved", "dropped", "examined", "doubt")
 
@@ -34,9 +31,7 @@ def from_schema_2(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]])
     new |= {f"{name}.values": arrays[f"map.{name}"] for name in ("sensed", "walked")}
     growth = np.pad(arrays["growth"], ((0, 0), (0, 1)), constant_values=-1)
     growth[growth[:, 1] == 1, 6] = 0  # a label of the first sensor
-    rows, first, marks, undone = np.zeros((0, 9)), np.zeros(1), np.zeros(0), np.zeros((0, 2))
-    new |= {"growth": growth, "changes.rows": rows, "changes.first": first.astype(np.int64)}
-    new |= {"changes.marks": marks.astype(np.int64), "changes.undone": undone.astype(np.int64)}
+    new["growth"] = growth
     factors = {"displacement": {}, "transition": {}, "pose": {"positions": header["positions"]}, "open": {}}
     places, growth, policies, beam, choice = (settings.pop(name) for name in _PARTS)
     options = {"places": places} if growth == "static" else {}

@@ -1,18 +1,15 @@
 """A map that is known beforehand, as records of hypotheses."""
 
-from __future__ import annotations
-
 from collections import Counter, deque
 from collections.abc import Hashable, Mapping
 from typing import Any, cast
 
 from ..inference import Place, Share, Way, readings_of
 from ..model import CogmapError, GenerativeModel, Position
-from .known_map import GivenWay, KnownMap
+from .known_map import GivenWay, KnownMap, position_of
 from .sensing import Sensing
 
-SURE = 4.0
-"""Readings that what the graph says of a sight or a way is worth."""
+SURE = 4.0  # readings that what the graph says of a sight or a way is worth
 
 
 def records_of_graph(known: KnownMap, model: GenerativeModel, sensing: Sensing) -> dict[int, Place]:
@@ -72,11 +69,14 @@ def _action(known: KnownMap, model: GenerativeModel, way: GivenWay) -> int:
     if name in motions.names:
         action = motions.names.index(name)
         return motions.inverse[action] if way.reverse else action
-    here, there = (known.nodes[node].get("position") for node in (way.source, way.target))
+    here, there = (position_of(known.nodes[node]) for node in (way.source, way.target))
     if name is None and here is not None and there is not None:
         across = tuple(b - a for a, b in zip(here, there, strict=False))
         if across in motions.displacements:
             return motions.displacements.index(across)
+    moving = [action for action in range(len(motions)) if action != motions.stay]
+    if not motions.placed and known.listed.get(way, len(moving)) < len(moving):
+        return moving[known.listed[way]]
     ends = f"from {way.source!r} to {way.target!r}"
     names = ", ".join(motions.names)
     raise CogmapError(f"{known.where}: the way {ends} is {name!r}, no action; label it 'way' with one of {names}")
@@ -84,7 +84,7 @@ def _action(known: KnownMap, model: GenerativeModel, way: GivenWay) -> int:
 
 def _positions(known: KnownMap, model: GenerativeModel, leads: Mapping[int, Mapping[int, int]]) -> dict[int, Position]:
     """Of each place, counted from the first: as the graph has them, or else as its ways lead."""
-    given = [facts.get("position") for facts in known.nodes.values()]
+    given = [position_of(facts) for facts in known.nodes.values()]
     if all(position is not None for position in given):
         whole = [_whole(known, position, len(model.motions.displacements[0])) for position in given]
         found = {k: tuple(x - y for x, y in zip(at, whole[0], strict=True)) for k, at in enumerate(whole)}

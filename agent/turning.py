@@ -1,7 +1,5 @@
 """A frame that may turn: the agent infers by how many quarter turns, together with the place."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Self, cast
 
@@ -16,14 +14,13 @@ from .perceiving import checked
 
 SURPRISE = 3.0
 """Nats by which another place or another turn must explain a percept better before the frame is in question."""
-SURE = 0.9
-"""Belief in one turn from which on it is taken as so."""
+SURE = 0.9  # belief in one turn from which on it is taken as so
 _FITS = -6.0  # log-likelihood below which nothing that is known fits: this is somewhere new
 _STRAY = 1e-3  # share of the belief that is spread over everything, each step of a search
 
 
 class TurningAgent(Agent):
-    """An agent that may be moved and turned without a word, as a body that has no compass is.
+    """An agent that may be silently moved and turned, for bodies without a compass.
 
     While everything fits it is an `Agent`. Where what it senses fits another known place, or the same places in a frame
     turned by quarters, far better than the place where it should be, its map is left alone: a filter over (place, turn)
@@ -147,7 +144,7 @@ class TurningAgent(Agent):
             if sensed[name] is UNSEEN:
                 continue
             if name != "open":
-                fits += sensor.log_likelihood(places, sensor.read(sensed[name], step=self.steps))[:, None]
+                fits += sensor.log_likelihood(places, sensor.glance(sensed[name], step=self.steps))[:, None]
                 continue
             for turn in range(4):
                 fits[:, turn] += sensor.log_likelihood(places, self._turned(sensed[name], turn))

@@ -1,7 +1,5 @@
 """Steps that are taken whole or not at all."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,8 +15,7 @@ from .wiring import Wired
 
 T = TypeVar("T")
 
-IN_STEP = "in the middle of a step"
-"""What is said of an agent while it takes one."""
+IN_STEP = "in the middle of a step"  # what is said of an agent while it takes one
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +87,8 @@ class Whole(Wired):
             result = work()
             self._torn = None
             release(map_)
+            if self._keep is not None and len(self.trace) >= 2 * self._keep:
+                del self.trace[: -self._keep]
             return result
         except BaseException as error:
             if self._torn is not None:

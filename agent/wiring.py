@@ -1,7 +1,6 @@
 """What an agent is wired of, and what it says of itself."""
 
-from __future__ import annotations
-
+import sys
 from collections import deque
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
@@ -10,7 +9,6 @@ import numpy as np
 
 from ..inference import Belief, RateOf
 from ..model import (
-    STEPS,
     CogmapError,
     CognitiveMap,
     Contexts,
@@ -22,6 +20,7 @@ from ..model import (
     PredictedGrowth,
     Sensor,
     Slice,
+    is_whole,
     safe,
     updates,
     window_graph,
@@ -62,17 +61,16 @@ class Wired:
     ) -> None:
         """Put the parts together; the map is empty yet."""
         sensors = None if sensors is None else list(sensors)
-        given = [("a sensor", sensor, Sensor) for sensor in sensors or ()]
-        parts: list[tuple[str, object, type]] = [
-            *given,
-            ("pose", pose, Pose),
-            ("growth", growth, Growth),
-            ("planner", planner, Planner),
-            ("settings", settings, Settings),
+        parts: list[tuple[str, object, type, str]] = [
+            *[("a sensor", sensor, Sensor, "sensors=[Sight(), Ways()]") for sensor in sensors or ()],
+            ("pose", pose, Pose, "pose=NoPose()"),
+            ("growth", growth, Growth, "growth=PredictedGrowth()"),
+            ("planner", planner, Planner, "planner=Planner(policies=MapGuided())"),
+            ("settings", settings, Settings, "settings=Settings(look_ahead=6)"),
         ]
-        for name, part, kind in parts:
+        for name, part, kind, example in parts:
             if part is not None and not isinstance(part, kind):
-                raise CogmapError(f"agent: {name} is {part!r}; give an object, such as growth=PredictedGrowth()")
+                raise CogmapError(f"agent: {name} is {part!r}; give an object, such as {example}")
         self._settings = settings
         self.growth = growth or PredictedGrowth()
         self.planner = planner or Planner()
@@ -108,9 +106,8 @@ class Wired:
 
     @keep.setter
     def keep(self, steps: int | None) -> None:
-        whole = isinstance(steps, int | np.integer) and not isinstance(steps, bool)
-        if steps is not None and not (whole and steps >= STEPS):
-            raise CogmapError(f"agent: keep is {steps!r}; give a whole number of {STEPS} steps or more, or None")
+        if steps is not None and not is_whole(steps, 1, sys.maxsize):
+            raise CogmapError(f"agent: keep is {steps!r}; give a positive whole number of steps, or None")
         self._keep = self.map.growth.keep = steps
 
     @property

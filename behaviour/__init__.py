@@ -1,7 +1,5 @@
 """Recorded walks: followed, explained by models of choice, fitted and compared."""
 
-from __future__ import annotations
-
 from .choices import RELATIONS, Choices, Compass, Fork, choices_of, gathered
 from .comparing import ALL, How, preferred, result_of, run_task, tasks_of
 from .crossing import FOLDS, LEVELS, GroupFit, fit_group, folds_of, held_out
@@ -16,53 +14,9 @@ from .terms import Habit, Home, Novelty, Parameter, Recency, Term, Value
 from .walks import Walk, load_walks
 
 __all__ = [
-    "ALL",
-    "FOLDS",
-    "LAPSE",
-    "LEAST_WAYS",
-    "LEVELS",
-    "LOOK_AHEAD",
-    "MODELS",
-    "RELATIONS",
-    "Around",
-    "ChoiceModel",
-    "Choices",
-    "Compass",
-    "Fit",
-    "Followings",
-    "Foresight",
-    "Fork",
-    "Ground",
-    "GroupFit",
-    "Habit",
-    "Home",
-    "How",
-    "Novelty",
-    "Parameter",
-    "Prepared",
-    "Prospects",
-    "Recency",
-    "Route",
-    "Source",
-    "Term",
-    "Value",
-    "Walk",
-    "Way",
-    "choices_of",
-    "fit",
-    "fit_group",
-    "folds_of",
-    "follow_route",
-    "gathered",
-    "held_out",
-    "load_ground",
-    "load_walks",
-    "models_named",
-    "new_agent",
-    "preferred",
-    "result_of",
-    "routes_of",
-    "run_task",
-    "simulate",
-    "tasks_of",
-]
+    "ALL", "FOLDS", "LAPSE", "LEAST_WAYS", "LEVELS", "LOOK_AHEAD", "MODELS", "RELATIONS", "Around", "ChoiceModel",
+    "Choices", "Compass", "Fit", "Followings", "Foresight", "Fork", "Ground", "GroupFit", "Habit", "Home", "How",
+    "Novelty", "Parameter", "Prepared", "Prospects", "Recency", "Route", "Source", "Term", "Value", "Walk", "Way",
+    "choices_of", "fit", "fit_group", "folds_of", "follow_route", "gathered", "held_out", "load_ground", "load_walks",
+    "models_named", "new_agent", "preferred", "result_of", "routes_of", "run_task", "simulate", "tasks_of",
+]  # fmt: skip

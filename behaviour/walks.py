@@ -1,10 +1,8 @@
 """Recorded walks: who went where, bout by bout."""
 
-from __future__ import annotations
-
 import csv
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
@@ -18,19 +16,13 @@ _COLUMNS = ("individual", "bout", "node")
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """The recorded walk of one individual.
+    """The recorded walk of one individual."""
 
-    Attributes:
-        individual: its name.
-        bouts: the nodes of each bout, in order, as they were written.
-        about: what else the file says of it, such as `water_restricted`.
-        source: the file.
-    """
-
-    individual: str
-    bouts: tuple[tuple[Any, ...], ...]
+    individual: str  # its name
+    bouts: tuple[tuple[Any, ...], ...]  # the nodes of each bout, in order, as they were written
+    # what else the file says of it, such as `water_restricted`
     about: Mapping[str, Any] = field(default_factory=dict[str, Any])
-    source: str = "walk"
+    source: str = "walk"  # the file
 
     def __post_init__(self) -> None:
         if not self.bouts:
@@ -134,11 +126,7 @@ def _from_csv(file: Path) -> list[Walk]:
         bouts.setdefault(individual, {}).setdefault(bout, []).append(node)
     if not bouts:
         raise CogmapError(f"{file} has no walks; give a line for each step")
-    return [Walk(name, _tuples(of.values()), {}, str(file)) for name, of in bouts.items()]
-
-
-def _tuples(bouts: Iterable[list[str]]) -> tuple[tuple[Any, ...], ...]:
-    return tuple(tuple(bout) for bout in bouts)
+    return [Walk(name, tuple(map(tuple, of.values())), {}, str(file)) for name, of in bouts.items()]
 
 
 def _from_trace(file: Path) -> Walk:

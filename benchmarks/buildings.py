@@ -4,15 +4,15 @@
     python benchmarks/buildings.py FOLDER --worlds house_31 farm --sights distinct ways 6 --starts 10 --jobs 2
     python benchmarks/buildings.py FOLDER --worlds house_31 house_49 --noise odometry=0.05 heading=3
     python benchmarks/buildings.py FOLDER --worlds streets_300 --told bearing
-    python benchmarks/buildings.py FOLDER --worlds farm --cost metres
+    python benchmarks/buildings.py FOLDER --cost metres --told lengths
     python benchmarks/buildings.py --worlds hall office geometric labyrinth
 
 WORLDS are the graph files of the folder by name, all of them unless given, and families that are made, another with
 each seed: hall (20x20), office (3 corridors of 8), geometric (100 places, degree 8), labyrinth (1,000 rooms). Seeds
 settle the start, the sights at random, the noise and the agent. Nearest frontier is the mean of 20 draws of its ties
-from the same start; by metres it is told how long ways are that nobody walked, and the agent is not. `worst` is the
-worst single start; `beyond` the steps from the last place entered until every way was known as well; milliseconds are
-processor time of a step of agent, world and judge.
+from the same start; by metres it is told how long ways are that nobody walked, and so is the agent with
+`--told lengths`. `worst` is the worst single start; `beyond` the steps from the last place entered until every way was
+known as well; milliseconds are processor time of a step of agent, world and judge.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ import numpy as np
 from cogmap.experiments import Moment, Parts, walk
 from cogmap.experiments.exploring import frontier_search
 from cogmap.worlds import NoisyWorld, geometric, hall, is_graph_file, labyrinth, load_world, office
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 
 DRAWS = 20
 FAMILIES: dict[str, Callable[[int], Any]] = {
@@ -101,20 +101,19 @@ def _mean(values: list[Any]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("folder", nargs="?", type=Path, help="of graph files")
     parser.add_argument("--worlds", nargs="+", metavar="NAME")
     parser.add_argument(
         "--sights", nargs="+", default=["6"], metavar="KIND", help="distinct, ways or a number at random"
     )
     parser.add_argument("--noise", nargs="+", default=[], metavar="KIND=RATE")
-    parser.add_argument("--told", help="of a pose: displacement, bearing or none; the most that is known unless given")
+    parser.add_argument("--told", help="of a pose: lengths, displacement (unless given), bearing or none")
     parser.add_argument("--cost", default="steps", choices=("steps", "metres"))
     parser.add_argument("--starts", type=positive, default=10)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--most", type=positive, help="steps; 50 a place and 50 unless given")
     parser.add_argument("--jobs", type=positive, default=1)
-    parser.add_argument("--json", type=json_path, metavar="FILE")
     args = parser.parse_args()
     files = [] if args.folder is None else sorted(path.stem for path in args.folder.iterdir() if is_graph_file(path))
     names = args.worlds or [name for name in files if name != "intel"]

@@ -32,7 +32,7 @@ from cogmap.experiments import Truth
 from cogmap.planning import CHOICES, LocalCache, Planner
 from cogmap.worlds import Maze, MazeEnv, Position, labyrinth
 from known import known_agent
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 Row = dict[str, Any]
 WARM = 10
@@ -203,7 +203,7 @@ PARTS = {part.__name__: part for part in (localised, goal, lost, save, explore)}
 
 
 def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("--rooms", type=int, nargs="+", default=[16, 100, 1000, 10_000, 100_000])
     parser.add_argument("--parts", nargs="+", default=list(PARTS), choices=PARTS)
     parser.add_argument("--loops", type=float, default=0.1, help="of the labyrinths, 0 to 1")
@@ -218,7 +218,6 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--choice", default="outward", choices=CHOICES, help="between policies")
     parser.add_argument("--seed", type=int, default=0, help="of the first maze of `explore`")
     parser.add_argument("--profile", action="store_true", help="print the functions that take longest")
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     if asked.seed < 0:
         parser.error(f"--seed is {asked.seed}; give 0 or more")

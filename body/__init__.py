@@ -1,7 +1,5 @@
 """Lower levels: from pixels to percepts, from ways to low-level actions."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -16,22 +14,9 @@ if TYPE_CHECKING:
     from .world import GOAL, EmbodiedWorld, embodied
 
 __all__ = [
-    "BODILY",
-    "COLOURS",
-    "GOAL",
-    "OUTCOMES",
-    "Body",
-    "EmbodiedWorld",
-    "Eyes",
-    "MiniGridBody",
-    "Percept",
-    "PixelView",
-    "RegisteredWorld",
-    "View",
-    "embodied",
-    "errand_of",
-    "load_embodied",
-]
+    "BODILY", "COLOURS", "GOAL", "OUTCOMES", "Body", "EmbodiedWorld", "Eyes", "MiniGridBody", "Percept", "PixelView",
+    "RegisteredWorld", "View", "embodied", "errand_of", "load_embodied",
+]  # fmt: skip
 
 _HEAVY = ("errand", "eyes", "minigrid", "registered", "world")
 

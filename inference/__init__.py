@@ -1,7 +1,5 @@
 """What follows from evidence: beliefs step by step, exact posteriors of factor graphs, their evidence, free energy."""
 
-from __future__ import annotations
-
 from .approximate import APPROXIMATIONS, Loopy, LoopyReport, Sampling, SamplingReport
 from .compiled import CompiledGraph, compile_graph
 from .errors import ImpossibleEvidence
@@ -35,50 +33,10 @@ from .query import infer, k_most_probable, log_product, marginal_map, most_proba
 from .stream import Stream
 
 __all__ = [
-    "APPROXIMATIONS",
-    "ENGINES",
-    "NOWHERE",
-    "Belief",
-    "CompiledGraph",
-    "FilterOptions",
-    "Fit",
-    "FreeEnergy",
-    "Hypothesis",
-    "ImpossibleEvidence",
-    "Loopy",
-    "LoopyReport",
-    "Message",
-    "MostProbable",
-    "Place",
-    "Posterior",
-    "RateOf",
-    "Sampling",
-    "SamplingReport",
-    "Sensed",
-    "Share",
-    "Stream",
-    "Tracker",
-    "TrackerOptions",
-    "Way",
-    "WayScheme",
-    "advance",
-    "begin",
-    "compile_graph",
-    "fit",
-    "free_energy",
-    "free_energy_of",
-    "infer",
-    "is_likelihood",
-    "k_most_probable",
-    "label_probabilities",
-    "log_product",
-    "marginal_map",
-    "most_probable",
-    "open_probability",
-    "rates_of",
-    "readings_of",
-    "together",
-    "tracker_knowing",
-    "ways_misread",
-    "whereabouts",
-]
+    "APPROXIMATIONS", "ENGINES", "NOWHERE", "Belief", "CompiledGraph", "FilterOptions", "Fit", "FreeEnergy",
+    "Hypothesis", "ImpossibleEvidence", "Loopy", "LoopyReport", "Message", "MostProbable", "Place", "Posterior",
+    "RateOf", "Sampling", "SamplingReport", "Sensed", "Share", "Stream", "Tracker", "TrackerOptions", "Way",
+    "WayScheme", "advance", "begin", "compile_graph", "fit", "free_energy", "free_energy_of", "infer", "is_likelihood",
+    "k_most_probable", "label_probabilities", "log_product", "marginal_map", "most_probable", "open_probability",
+    "rates_of", "readings_of", "together", "tracker_knowing", "ways_misread", "whereabouts",
+]  # fmt: skip

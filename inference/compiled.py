@@ -1,7 +1,5 @@
 """A graph compiled once and asked many times: evidence changes, the tree stays."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -32,8 +30,7 @@ from .exact import (
 from .posterior import MostProbable, Name, Posterior
 from .query import checked_pairs, checked_targets, log_product
 
-MOST_TREES = 16
-"""Sets of observed variables whose trees are kept."""
+MOST_TREES = 16  # sets of observed variables whose trees are kept
 
 
 @dataclass(slots=True)
@@ -46,7 +43,7 @@ class _Tree:
 
 
 class CompiledGraph:
-    """A graph with its order of elimination; see `compile_graph`. Later additions to the graph do not show here."""
+    """A graph with a fixed order of elimination; see `compile_graph`. It ignores later additions to the graph."""
 
     def __init__(self, graph: FactorGraph, observed: Sequence[Name], order: Order, memory: float) -> None:
         self.graph = graph.copy()

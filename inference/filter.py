@@ -13,21 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import CogmapError, GenerativeModel, Percept, Successors, distinct
+from ..model import CogmapError, Floats, GenerativeModel, Ints, Percept, Successors, distinct
 from .errors import ImpossibleEvidence
 from .message import Belief, Message
 
-PRUNED = 1e-8
-"""Odds beside the most probable place from which on another one may matter later."""
-
-FEW = 50
-"""Visited places that are looked at one and all."""
-
-SMALL = 1e-250
-"""Likelihoods that are all below are brought up, so that none is rounded to zero."""
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+PRUNED = 1e-8  # odds beside the most probable place from which on another one may matter later
+FEW = 50  # visited places that are looked at one and all
+SMALL = 1e-250  # likelihoods that are all below are brought up, so that none is rounded to zero
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,14 +88,14 @@ class _Candidates:
 
 
 def begin(model: GenerativeModel, place: int, percept: Percept) -> Belief:
-    """The belief of an agent that knows to be in `place`, after its first evidence."""
+    """The belief of an agent that knows that it is in `place`, after its first evidence."""
     here = np.array([place])
     prior = _Candidates.seen(model, percept, here, model.pose.of(here), np.ones(1), np.zeros(1, dtype=np.int64))
     return _update(model, None, prior, None, support=0.0, displacement=0.0)
 
 
 def advance(model: GenerativeModel, message: Message, percept: Percept, *, support: float = 1e-3) -> Belief:
-    """The belief after one more action and what is sensed then; places below `support` leave it.
+    """The belief after one more action and its evidence. Places below `support` leave the domain.
 
     Raises:
         CogmapError: the percept has no action.

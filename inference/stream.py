@@ -1,7 +1,5 @@
 """Filtering a template for ever: one slice after the other, in constant memory."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -12,12 +10,11 @@ from .exact import MEMORY, buckets, forward, plan_elimination, reduce
 from .posterior import Posterior
 from .query import infer
 
-REACH = 600.0
-"""Nats that one factor spans; a message that spans more is the product of several."""
+REACH = 600.0  # nats that one factor spans; a message that spans more is the product of several
 
 
 class Stream:
-    """The filter of a template: what is known of the present slice, given everything up to now.
+    """A filter for a template: the posterior of the present slice, given all evidence so far.
 
     The past enters as a message over the variables that the next slice refers to, kept in logs.
 

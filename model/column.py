@@ -1,8 +1,6 @@
 """Arrays that grow along with the places or positions of a map."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from math import inf
 from typing import Any
 
@@ -14,7 +12,7 @@ from .errors import CogmapError
 
 
 class Column:
-    """A numpy array that grows along its first axis, amortised; what is set is logged, how long it is is not.
+    """A numpy array that grows along its first axis. Its values are logged, its length is not.
 
     Args:
         name: unique in its map.
@@ -24,7 +22,7 @@ class Column:
         changes: the log that is told; none unless given.
     """
 
-    __slots__ = ("_array", "_changes", "_fill", "_length", "_range", "name")
+    __slots__ = ("_array", "_changes", "_fill", "_length", "name")
 
     def __init__(
         self,
@@ -40,7 +38,6 @@ class Column:
         self._changes = changes
         self._array = np.full((8,) if width is None else (8, width), fill, dtype=dtype)
         self._length = 0
-        self._range = -inf, inf  # of what a file may have
 
     def __len__(self) -> int:
         return self._length
@@ -80,10 +77,6 @@ class Column:
         """Write one cell without telling the log."""
         self._array[where] = value
 
-    def value(self, numbers: Sequence[float]) -> float:
-        """A number of a cell, from a file."""
-        return self._array.dtype.type(numbers[0]).item()
-
     def savepoint(self) -> int:
         """How many rows it has."""
         return self._length
@@ -91,15 +84,6 @@ class Column:
     def go_back(self, point: int) -> None:
         """Be as long as it was."""
         self.resize(point)
-
-    def fits(self, where: Any, value: Any, places: int) -> bool:
-        """Whether `put` can take this, where there are so many places; rows may be other things as well."""
-        row, column = where if isinstance(where, tuple) else (where, None)
-        width = self._array.shape[1] if self._array.ndim > 1 else None
-        if not (isinstance(row, int) and 0 <= row < max(places, len(self._array))):
-            return False
-        inside = column is None if width is None else column is not None and 0 <= column < width
-        return inside and self._range[0] <= value < max(self._range[1], places)
 
     def touched(self, where: int | tuple[int, int]) -> Iterable[int]:
         """The row, where rows are places."""
@@ -124,4 +108,3 @@ class Column:
                 f"map: {self.name} does not fit {len(self)} rows of {least:g} to {bound:g}; save it again"
             )
         self.values[:] = values
-        self._range = least, bound

@@ -1,7 +1,5 @@
 """Sparse growing tables of Dirichlet counts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from math import inf
@@ -11,17 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .changes import Change, Changes
 from .errors import CogmapError
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 EMPTY = -2
 """Key of an unused slot."""
 
-LARGEST = 1e301
-"""What no count reaches, so that all those of a row have a finite sum."""
+LARGEST = 1e301  # what no count reaches, so that all those of a row have a finite sum
 
 
 def _grown(array: NDArray[np.generic], shape: tuple[int, int], fill: float) -> NDArray[np.generic]:
@@ -52,7 +47,6 @@ class SparseDirichlet:
 
     __slots__ = (
         "_alpha",
-        "_bound",
         "_changes",
         "_evidence",
         "_keys",
@@ -81,7 +75,6 @@ class SparseDirichlet:
         self.rows_each = rows_each
         self._changes = changes
         self._rows = 0
-        self._bound = inf  # of the outcomes that a file may have
         self._keys: Ints = np.full((8, slots), EMPTY, dtype=np.int64)
         self._prior: Floats = np.zeros((8, slots))
         self._evidence: Floats = np.zeros((8, slots))
@@ -140,10 +133,6 @@ class SparseDirichlet:
             evidence *= value
         self._add_up()
 
-    def value(self, numbers: Sequence[float]) -> tuple[int, float, float]:
-        """Outcome, prior and evidence of a slot, from a file."""
-        return int(numbers[0]), numbers[1], numbers[2]
-
     def savepoint(self) -> tuple[int, int, int]:
         """Rows, slots, and the size of the domain."""
         return self._rows, self._keys.shape[1], self.outcomes
@@ -164,20 +153,6 @@ class SparseDirichlet:
             setattr(self, name, getattr(self, name)[:, :slots].copy())
         self._alpha, self._total = np.zeros_like(self._prior), np.zeros(len(self._keys))
         self._add_up()
-
-    def fits(self, where: Any, value: Any, places: int) -> bool:
-        """Whether `put` can take this, where there are so many places."""
-        if where is None:
-            if not isinstance(value, np.ndarray):
-                return 0.0 <= value <= 1.0
-            slots = self._keys.shape[1]
-            return value.shape[0] == places * self.rows_each and value.shape[1] <= slots and _within(value, 0, LARGEST)
-        if not (isinstance(where, tuple) and isinstance(value, tuple)):
-            return False
-        row, slot = where
-        key, *counts = value
-        inside = 0 <= row < places * self.rows_each and 0 <= slot < self._keys.shape[1]
-        return inside and EMPTY <= key < max(self._bound, places) and all(0.0 <= count < LARGEST for count in counts)
 
     def touched(self, where: tuple[int, int] | None) -> Iterable[int] | None:
         """The place whose row it is."""
@@ -338,7 +313,6 @@ class SparseDirichlet:
         if not (fits and keys.dtype.kind == "i" and _sound(keys, (prior != 0.0) | (evidence != 0.0), least, outcomes)):
             where = f"{self._rows} rows of {outcomes:g} outcomes"
             raise CogmapError(f"map: the counts of {self.name} do not fit {where}; save it again")
-        self._bound = outcomes
         self._keys = keys.astype(np.int64)
         self._prior, self._evidence = prior.astype(np.float64), evidence.astype(np.float64)
         self._alpha, self._total = np.zeros_like(self._prior), np.zeros(self._rows)

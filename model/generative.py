@@ -1,13 +1,12 @@
 """The generative model (eq. 1) as a list of factors over places that come as they are imagined."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .changes import Change, Changes, Store
 from .dirichlet import SparseDirichlet
 from .errors import CogmapError
@@ -20,12 +19,9 @@ from .percept import Percept
 from .rates import Priors, Rates
 from .visits import Visits
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
 
 class GenerativeModel:
-    """The factors of eq. 1, and the places that they are about.
+    """The generative model of eq. 1: its factors, and the places that they share.
 
     Args:
         motions: the actions.
@@ -256,14 +252,6 @@ class GenerativeModel:
         """Nothing: how many places there are is known from the factors."""
         return {}
 
-    def value(self, numbers: Sequence[float]) -> bool:
-        """Whether a place exists, from a file."""
-        return bool(numbers[0])
-
-    def fits(self, where: Any, value: Any, places: int) -> bool:
-        """Whether `put` can take this: the next place comes, or the last one goes."""
-        return where == (places if value else places - 1)
-
     def touched(self, where: int) -> Iterable[int]:
         """The place itself."""
         return (where,)
@@ -302,22 +290,3 @@ class GenerativeModel:
             self.changes.append(Change(self, place, True, False))
             self.put(place, False)
         self._log(step, "retract", before)
-
-    def take_back(self, mark: int, *, step: int) -> None:
-        """Undo everything since `mark`; labels and positions that were met stay in their domains.
-
-        Raises:
-            CogmapError: that is longer ago than the log can undo.
-        """
-        entries, _ = self.changes.since(mark)
-        before = self._size
-        grown = [entry for entry in entries or () if isinstance(entry, GrowthEvent) and entry.index < before]
-        bound = [
-            event.index for event in reversed(grown) if event.kind in ("bind", "place") and event.label is not None
-        ]
-        lost = [(place, self.pose.position(place)) for place in dict.fromkeys(bound)]
-        self.changes.undo(mark)
-        for place, position in lost:
-            if position is not None:
-                self._log(step, "unbind", place, position)
-        self._log(step, "retract", before - self._size)

@@ -1,7 +1,5 @@
 """Files of others, read within limits: regular ones, no larger than said, JSON that is no more than JSON."""
 
-from __future__ import annotations
-
 import gzip
 import json
 import math
@@ -15,19 +13,17 @@ from typing import Any, BinaryIO, cast
 
 from .errors import CogmapError
 
-LARGEST = 256 * 2**20
-"""Bytes of the largest file that is read whole, packed or not."""
+LARGEST = 256 * 2**20  # bytes of the largest file that is read whole, packed or not
 
 CHUNK = 2**20
 
-MOST_VALUES = 6_000_000
-"""Values of JSON in one file: each takes up to 80 bytes where it is read."""
+MOST_VALUES = 6_000_000  # values of JSON in one file: each takes up to 80 bytes where it is read
 
 _SURROGATE = re.compile(r"[\ud800-\udfff]")
 
 
 def open_regular(path: str | PathLike[str]) -> BinaryIO:
-    """A file, opened for reading; a pipe would wait for ever, a device has no end.
+    """Open a regular file for reading. Pipes and devices are refused.
 
     Raises:
         CogmapError: it is no regular file.
@@ -44,7 +40,7 @@ def open_regular(path: str | PathLike[str]) -> BinaryIO:
 
 
 def read_file(path: str | PathLike[str], *, most: int = LARGEST) -> bytes:
-    """What a file has in it.
+    """The content of a file.
 
     Raises:
         CogmapError: it is no regular file, or has more than `most` bytes.
@@ -58,7 +54,7 @@ def read_file(path: str | PathLike[str], *, most: int = LARGEST) -> bytes:
 
 
 def unpack_gzip(path: str | PathLike[str], content: bytes, *, most: int = LARGEST) -> bytes:
-    """What was packed, a JSON text; it is gone through once before any of it is kept.
+    """Unpack a JSON text. Its size is checked before any of it is kept.
 
     Raises:
         CogmapError: it would be larger than `most` bytes.
@@ -76,11 +72,7 @@ def unpack_gzip(path: str | PathLike[str], content: bytes, *, most: int = LARGES
 
 
 def check_size(path: str | PathLike[str], size: int, most: int) -> None:
-    """Refuse what is too large.
-
-    Raises:
-        CogmapError: it is.
-    """
+    """Refuse input that is too large. Raises CogmapError."""
     if size > most:
         raise CogmapError(f"{path} has {size:,} bytes; such a file has {most:,} at most")
 
@@ -104,16 +96,12 @@ def parse_json(content: bytes | str) -> Any:
 
 
 def count_values(content: bytes) -> int:
-    """About how many values are in a JSON text, or a part of it; no fewer, but for one."""
+    """Roughly how many values a JSON text has; never fewer, but for one."""
     return sum(map(content.count, (b",", b"[", b"{", b":")))
 
 
 def check_values(count: int) -> None:
-    """Refuse more than can be kept in memory.
-
-    Raises:
-        ValueError: there are.
-    """
+    """Refuse more values than fit into memory. Raises ValueError."""
     if count > MOST_VALUES:
         raise ValueError(f"JSON of {count:,} values or so; {MOST_VALUES:,} are read at most")
 

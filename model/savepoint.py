@@ -5,8 +5,6 @@ puts the old values, then cuts everything that only grows to the length it had, 
 That costs as much as the map is large; a savepoint costs next to nothing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass
@@ -24,27 +22,19 @@ _OURS = __name__.partition(".")[0] + "."
 
 @dataclass(frozen=True, slots=True)
 class Savepoint:
-    """How a model was between two steps.
+    """The state of a model between two steps, to return to."""
 
-    Attributes:
-        places: how many there were.
-        growth: events in its log of growth.
-        changes: where its log of changes was.
-        stores: what each store needs to go back, besides the log.
-        factors: the same of each factor.
-        others: attributes of parts that are not of this library; None where they cannot be copied.
-    """
-
-    places: int
-    growth: int
-    changes: Any
-    stores: tuple[Any, ...]
-    factors: tuple[Any, ...]
+    places: int  # how many there were
+    growth: int  # events in its log of growth
+    changes: Any  # where its log of changes was
+    stores: tuple[Any, ...]  # what each store needs to go back, besides the log
+    factors: tuple[Any, ...]  # the same of each factor
+    # attributes of parts that are not of this library; None where they cannot be copied
     others: tuple[Mapping[str, Any] | None, ...]
 
 
 def savepoint(model: GenerativeModel) -> Savepoint:
-    """How the model is now; until `release` its logs drop nothing."""
+    """A savepoint of the model as it is now. Until `release` its logs drop nothing."""
     return Savepoint(
         len(model.places),
         len(model.growth),
@@ -56,13 +46,13 @@ def savepoint(model: GenerativeModel) -> Savepoint:
 
 
 def release(model: GenerativeModel) -> None:
-    """The savepoint is of no use any more: logs may drop what is long ago."""
+    """Give up a savepoint, so that the logs may drop what lies before it."""
     model.changes.release()
     model.growth.tidy()
 
 
 def go_back(model: GenerativeModel, point: Savepoint) -> None:
-    """Make the model what it was, whatever was done to it since, or half done.
+    """Restore the model to a savepoint, whatever was changed since.
 
     Raises:
         CogmapError: a part that is not of this library has what cannot be copied.

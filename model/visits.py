@@ -1,8 +1,6 @@
 """Which places were ever entered, and in which order."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -38,7 +36,7 @@ class Visits:
     def note(self, place: int) -> None:
         """The agent was in `place`."""
         if not self.visited.values[place]:
-            self._changes.append(Change(self, place, False, True))  # first, so that what is half done can be undone
+            self._changes.append(Change(self, place, False, True))  # first, so that what is half done can be taken back
             self.put(place, True)
 
     def forget(self) -> None:
@@ -55,10 +53,6 @@ class Visits:
             self.order.resize(len(self.order) - 1)
             self.first.put(where, -1)
         self.visited.put(where, value)
-
-    def value(self, numbers: Sequence[float]) -> bool:
-        """Whether it was visited, from a file."""
-        return bool(numbers[0])
 
     def undo(self, where: int, old: bool) -> None:
         """Have the place as the last visited one, or not, whether that was done or only meant."""
@@ -80,10 +74,6 @@ class Visits:
         order = self.order.values
         self.first.values[order] = np.arange(len(order))
         self.visited.values[order] = True
-
-    def fits(self, where: Any, value: Any, places: int) -> bool:
-        """Whether `put` can take this, where there are so many places."""
-        return isinstance(where, int) and 0 <= where < places
 
     def touched(self, where: int) -> Iterable[int]:
         """The place itself."""

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError, NoPose, Sight, Ways
-from cogmap.worlds import load_world
+from cogmap.worlds import ListedWays, load_world
 from walks import GRID
 
 from cogmap import UNSEEN
@@ -82,6 +82,65 @@ def test_files_of_graphs_are_maps(kind: str, tmp_path: Path) -> None:
     agent = Agent(GRID, map=path, seed=0) if kind == "graphml" else Agent(map=str(path), seed=0)
     assert agent.map.motions.names == tuple(GRID)
     assert_finds_itself(agent, "4x4", start=(2, 2))
+
+
+ROBOT = """
+- node:
+    name: {0}
+    pose: {{position: {{x: 0.0, y: 0.0, z: 0.0}}}}
+    properties: {{sight: door}}
+    edges: [{{node: hall, action: move_base}}]
+- node:
+    name: hall
+    pose: {{position: {{x: 3.0, y: 0.5, z: 0.0}}}}
+    edges: [{{node: porch}}, {{node: yard}}, {{node: shed}}]
+- node: {{name: yard, pose: {{position: {{x: 3.0, y: 4.0, z: 0.0}}}}, edges: [{{node: hall}}, {{node: shed}}]}}
+- node: {{name: shed, pose: {{position: {{x: 6.0, y: 4.0, z: 0.0}}}}, edges: [{{node: hall}}]}}
+"""
+
+
+@pytest.mark.parametrize("ending", ["yaml", "tmap2", "json"])
+def test_files_that_worlds_are_made_of_are_maps_too(ending: str, tmp_path: Path) -> None:
+    (path := tmp_path / "yard.yaml").write_text(ROBOT.format("porch"))
+    world = ListedWays(load_world(path, sights="distinct", pose="none"))
+    if ending == "json":
+        graph: Any = nx.DiGraph()
+        graph.add_nodes_from(
+            (node, {"position": (x, y)}) for node, x, y in zip("phys", (0, 3, 3, 6), (0, 1, 4, 4), strict=True)
+        )
+        graph.add_edges_from(["ph", "hp", "hy", "hs", "yh", "ys", "sh"])
+        (path := tmp_path / "yard.json").write_text(json.dumps(nx.node_link_data(graph, edges="edges")))
+    elif ending == "tmap2":
+        (path := tmp_path / "yard.tmap2").write_text("nodes:\n" + ROBOT.format("porch"))
+    agent = Agent(world.motions if ending == "json" else None, map=path, seed=0)
+    assert agent.map.motions.names == world.motions.names
+    assert [[agent.map.beyond(place, way) for way in (1, 2, 3)] for place in range(4)] == [
+        [1, None, None], [2, 3, 0], [3, 1, None], [1, None, None]
+    ]  # fmt: skip
+    seen, info = world.reset(seed=3)
+    for _ in range(8):
+        seen, *_, info = world.step(agent.step(seen))
+    agent.step(seen)
+    assert agent.certain
+    assert ("porch", "hall", "yard", "shed")[agent.belief.place] == info["place"]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a: [", "is no graph in node-link JSON, GraphML or topological YAML"),
+        ("- 3", "is no graph"),
+        ("[]", "has no node"),
+        ("- node: {name: A, edges: [{node: B}]}", "edge from 'A' leads to 'B', which is no node"),
+        ("- node: {name: A, pose: {position: {x: a, y: 1}}, edges: [{node: A}]}", "where 'A' lies is no numbers"),
+        ("- node: {name: A}", "it does not say 'motions'"),
+    ],
+)
+def test_robots_maps_that_are_none(text: str, message: str, tmp_path: Path) -> None:
+    (tmp_path / "map.yaml").write_text(text)
+    with pytest.raises(CogmapError, match=message) as raised:
+        Agent(map=tmp_path / "map.yaml")
+    assert "\n" not in str(raised.value)
 
 
 def test_what_one_agent_mapped_another_can_begin_with(tmp_path: Path) -> None:

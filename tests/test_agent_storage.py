@@ -246,7 +246,6 @@ ARRAY_DAMAGE: dict[str, Callable[[np.ndarray], np.ndarray | None]] = {
 }
 MAY_PASS = {  # what could have been so
     ("half", "visits.order"),
-    ("half", "changes.marks"),
     ("below", "state.belief.log_likelihood"),
 }
 

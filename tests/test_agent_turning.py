@@ -13,7 +13,7 @@ from cogmap.agent import Agent, Settings, TurningAgent
 from cogmap.agent.storage import write
 from cogmap.body import embodied, load_embodied
 from cogmap.experiments import kidnap, navigate
-from cogmap.model import UNSEEN, CogmapError
+from cogmap.model import UNSEEN, CogmapError, Features, Ways
 from cogmap.worlds import GRID, load_world
 from interrupts import content, lines_of, was_interrupted
 
@@ -63,6 +63,21 @@ def test_undisturbed_it_is_an_agent() -> None:
         assert actions[0] == actions[1]
         for world, action in zip(worlds, actions, strict=True):
             world.step(action)
+
+
+def test_vectors_are_learned_from_once() -> None:
+    rng, kinds = np.random.default_rng(0), np.random.default_rng(1).normal(size=(9, 8))
+    world, seen = Turned("3x3", 0), dict[str, Any]()
+    views = [Features("view", size=8), Features("view", size=8)]
+    turning = TurningAgent(GRID, sensors=[views[0], Ways()], seed=0)
+    plain = Agent(GRID, sensors=[views[1], Ways()], seed=0)
+    for _ in range(20):
+        told = world.observe()
+        seen = {"open": told["open"], "view": kinds[told["sight"]] + 0.2 * rng.normal(size=8)}
+        assert turning.step(seen) == plain.step(seen)
+        world.step(turning._state.action)
+    np.testing.assert_array_equal([*views[0].prototypes.values()], [*views[1].prototypes.values()])
+    assert len(views[0].prototypes) == 9
 
 
 def test_nothing_seen_and_nowhere_known_are_no_reasons_to_turn() -> None:

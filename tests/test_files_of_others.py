@@ -164,7 +164,6 @@ def test_numbers_that_no_agent_has(name: str, saved: Path, tmp_path: Path) -> No
     ("field", "value"),
     [
         ("action", 99), ("action", True), ("steps", -1), ("steps", 13), ("acted", 1), ("open", None),
-        ("belief", None), ("begun", 10**9), ("revised", 2),
     ],
 )  # fmt: skip
 def test_states_that_no_agent_is_in(field: str, value: Any, saved: Path, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The log of changes: read by cursor, undone to a mark, forked into branches."""
+"""The log of changes: read by cursor, and gone back through."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from cogmap.model import Change, Changes, CogmapError, CognitiveMap, GrowthEvent, Motions, map_state
-from cogmap.model.changes import KEPT, STEPS
+from cogmap.model import Change, Changes, CognitiveMap, GrowthEvent, Motions, map_state
+from cogmap.model.changes import KEPT
+from cogmap.model.savepoint import go_back, release, savepoint
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import GRID
@@ -51,8 +52,8 @@ def begun() -> CognitiveMap:
 
 
 def stored(map_: CognitiveMap) -> dict[str, np.ndarray]:
-    """Everything that is undone, without the slots that nothing uses."""
-    arrays = {name: array for name, array in map_state(map_)[1].items() if not name.startswith(("changes", "growth"))}
+    """Everything that goes back, without the slots that nothing uses."""
+    arrays = {name: array for name, array in map_state(map_)[1].items() if name != "growth"}
     for table in ("A_o", "A_p", "B_s"):
         used = (arrays[f"{table}.keys"] != -2).any(axis=0)
         for part in ("keys", "prior", "evidence"):
@@ -65,33 +66,19 @@ def assert_stored(map_: CognitiveMap, arrays: dict[str, np.ndarray]) -> None:
         np.testing.assert_array_equal(array, arrays[name], err_msg=name)
 
 
-@given(parts=st.lists(writes, min_size=2, max_size=6), back=st.integers(0, 5), again=writes)
+@given(before=writes, after=writes, again=writes)
 @settings(max_examples=60, deadline=None)
-def test_undo_restores_exactly(parts: list, back: int, again: list) -> None:  # type: ignore[type-arg]
-    map_, marks, states = begun(), list[int](), list[dict[str, np.ndarray]]()
-    for part in parts:
-        marks.append(map_.changes.mark())
-        states.append(stored(map_))
-        write(map_, part)
-    at = back % len(parts)
-    map_.changes.undo(marks[at])
-    assert_stored(map_, states[at])
-    write(map_, again)
-    map_.changes.undo(marks[at // 2])  # through what was undone already
-    assert_stored(map_, states[at // 2])
-
-
-@pytest.mark.parametrize("mark", [7, -1, 10**6])
-def test_what_is_no_mark_is_refused(mark: int) -> None:
+def test_going_back_restores_exactly(before: list, after: list, again: list) -> None:  # type: ignore[type-arg]
     map_ = begun()
-    with pytest.raises(CogmapError, match=r"no mark that is kept; there are none, call mark\(\)"):
-        map_.changes.undo(mark)
-    first = map_.changes.mark()
-    for _ in range(STEPS):
-        map_.new_place(None, step=0)
-        map_.changes.mark()
-    with pytest.raises(CogmapError, match="the oldest is"):
-        map_.changes.undo(first)
+    write(map_, before)
+    state, point = stored(map_), savepoint(map_)
+    write(map_, after)
+    go_back(map_, point)
+    assert_stored(map_, state)
+    point = savepoint(map_)
+    write(map_, again)
+    go_back(map_, point)  # through what was gone back through already
+    assert_stored(map_, state)
 
 
 def test_readers_hear_of_everything_once() -> None:
@@ -149,12 +136,12 @@ def test_a_log_that_forgot_says_so(count: int) -> None:
     assert len(log.since(count - KEPT)[0] or ()) == KEPT
 
 
-def test_memory_is_bounded_by_the_steps_that_can_be_undone() -> None:
-    log, event = Changes(), GrowthEvent(0, "time", 0)
-    marks: list[int] = []
-    for _ in range(400):
-        marks.append(log.mark())
-        for _ in range(100):
-            log.append(event)
-    assert len(log.since(marks[-STEPS])[0] or ()) == 100 * STEPS
-    assert log.since(marks[-4 * STEPS])[0] is None
+def test_all_that_happens_in_a_step_is_kept_until_it_is_over() -> None:
+    map_ = begun()
+    point, length = savepoint(map_), len(map_.changes)
+    for place in range(5 * KEPT):
+        map_.A_o.add(0, place % 5, 1.0)
+    assert len(map_.changes.held(point.changes)) == len(map_.changes.since(length)[0] or ()) == 5 * KEPT
+    release(map_)
+    assert map_.changes.since(length)[0] is None
+    assert len(map_.changes) == length + 5 * KEPT

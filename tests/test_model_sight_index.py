@@ -6,6 +6,7 @@ import numpy as np
 from cogmap.model import CognitiveMap, Motions, map_state, restore_map
 from cogmap.model.changes import KEPT
 from cogmap.model.factors.sight_index import SightIndex
+from cogmap.model.savepoint import go_back, release, savepoint
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import GRID
@@ -31,9 +32,11 @@ def test_whatever_happens_the_index_is_that_of_the_map(ops: list[tuple[int, int,
     map_ = CognitiveMap(Motions.of(GRID))
     for sight in range(SIGHTS):
         map_.sensors["sight"].read(sight, step=0)
-    marks = [map_.changes.mark()]
+    point = savepoint(map_)
     for step, (op, number, sight) in enumerate(ops, start=1):
-        marks.append(map_.changes.mark())
+        if step % 4 == 0:
+            release(map_)
+            point = savepoint(map_)
         place = number % len(map_.places) if map_.places else 0
         if op == 0 or not map_.places:
             map_.new_place((step, 0), step=step)
@@ -42,9 +45,9 @@ def test_whatever_happens_the_index_is_that_of_the_map(ops: list[tuple[int, int,
         elif op in (2, 3):
             map_.mark_visited(place)
             map_.sensors["sight"].learn(place, sight, (0.3, 1.0)[number % 2])
-        elif op == 4 and len(marks) > 3:
-            del marks[-3:]
-            map_.take_back(marks[-1], step=step)
+        elif op == 4:
+            go_back(map_, point)
+            point = savepoint(map_)
         else:
             map_.A_o.add(place, sight, -0.5)
         if step % 3 == 0:

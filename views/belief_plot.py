@@ -1,26 +1,20 @@
 """Where the agent believes to be: as bars, and on its map."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..inference import Belief
 from ..model import CogmapError, CognitiveMap
 from ..worlds import Chart
-from .axes import Where, axes_or_new, write_in
+from .axes import Axes, Where, axes_or_new, write_in
 from .map_picture import MapPicture
 from .map_plot import draw_map, underlay
 from .picture import RADIUS
 from .theme import SKY, VERMILION, theme_of
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-Places = Belief | Mapping[int, float]
-"""Q(s) by number of the place: a belief, or the `places` of a step's record."""
+Places = Belief | Mapping[int, float]  # Q(s) by number of the place: a belief, or the `places` of a step's record
 
 TRUE, OTHER = VERMILION, SKY
 HALO = 0.34  # radius of the disc behind a place, cells
@@ -30,7 +24,7 @@ LEAST = 0.005  # places that are less probable are not marked
 def plot_belief(
     belief: Mapping[str, float], *, true: str | None = None, threshold: float | None = None, **where: Unpack[Where]
 ) -> Axes:
-    """A bar for each place, as high as it is probable.
+    """One bar per place, as high as the place is probable.
 
     Args:
         belief: Q(s) by what each place is called.
@@ -65,7 +59,7 @@ def plot_belief_bars(
     threshold: float | None = None,
     **where: Unpack[Where],
 ) -> Axes:
-    """A bar for each place, the most probable on top; those after the first `most` are added up.
+    """One bar per place, the most probable at the top. All after the first `most` are summed.
 
     Args:
         belief: the agent's, or Q(s) by number of the place.
@@ -102,7 +96,7 @@ def plot_belief_bars(
 def plot_belief_map(
     belief: Places, map_: CognitiveMap, *, chart: Chart | None = None, start: Any = (0, 0), **where: Unpack[Where]
 ) -> Axes:
-    """The map, and behind each place a disc as strong as it is probable that the agent is there.
+    """The map, with a disc behind each place that is as strong as the place is probable.
 
     Args:
         belief: the agent's, or Q(s) by number of the place.

@@ -1,25 +1,21 @@
 """Whole figures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..model import CognitiveMap
 from ..worlds import Chart
+from .axes import Figure
 from .map_plot import plot_map
 from .scene_plot import Scene, plot_scene
 from .time_plots import Trace, plot_expected_free_energy, plot_free_energy
 from .world_plot import plot_world, world_picture
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 WIDTH = 5.5  # of a plot, inches
 
 
 def world_figure(chart: Chart, *, title: str | None = None) -> Figure:
-    """A world, large enough to read."""
+    """A picture of a world, large enough to read."""
     from matplotlib.figure import Figure
 
     cells = world_picture(chart).cells.values()
@@ -38,7 +34,7 @@ def explore_figure(
     title: str | None = None,
     scene: Scene | None = None,
 ) -> Figure:
-    """The world with the path, the map learned, F and G over time; of a body, what it walked through comes first.
+    """A figure of the world with the path, the learned map, and F and G over time. With a body, its scene comes first.
 
     Args:
         chart: the true map: `world.chart`, or a maze.

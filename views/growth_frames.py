@@ -1,7 +1,5 @@
 """The map as it grows, frame by frame."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -9,20 +7,16 @@ from functools import partial
 from itertools import islice, takewhile
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..agent import Agent
 from ..model import CogmapError, GrowthEvent, make_folder, write_through
 from ..worlds import Chart
-from .axes import Cell, axes_or_new
+from .axes import Axes, Cell, Figure, axes_or_new
 from .map_picture import MapPicture
 from .map_plot import draw_map, underlay
 from .picture import RADIUS
 from .theme import VERMILION, theme_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 HERE = RADIUS + 0.08  # radius of the ring around the place where the agent believes to be
 PIXELS = 100  # an inch
@@ -41,7 +35,7 @@ class GrowthFrame:
 
 
 class GrowthFrames:
-    """Pictures of an agent's map, one a step; what did not change from one to the next is kept once.
+    """Pictures of an agent's map, one per step. Only what changes between steps is stored.
 
     Example: `frames = GrowthFrames()`, then `frames.add(agent)` after each step, and `frames.save_gif("map.gif")`.
     The `frames` so far can be read.

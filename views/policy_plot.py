@@ -1,22 +1,17 @@
 """Where the agent imagines to go."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..model import CogmapError, CognitiveMap
 from ..planning import Plan
-from .axes import Cell, Where, as_grid, axes_or_new, cell_points, flat
+from .axes import Axes, Cell, Where, as_grid, axes_or_new, cell_points, flat
 from .map_picture import MapPicture
 from .theme import BLUE, RGB, SKY, Theme, contrast, mixed, theme_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 LEAST = 0.01  # ways that are less probable are not drawn
 PALEST = 0.85  # how much of the ground is in the least probable way; none is in the most probable one
@@ -28,7 +23,7 @@ Paths = Mapping[tuple[tuple[float, ...], ...], float]
 def policy_paths(
     plan: Plan, map_: CognitiveMap, *, start: Sequence[float] = (0, 0), least: float = 1e-3
 ) -> dict[tuple[Cell, ...], float]:
-    """The cells that the policies lead along if every way is as the map has it, the most probable path first.
+    """The cells that each policy leads through on the map, with the most probable path first.
 
     Args:
         plan: of the agent.
@@ -55,7 +50,7 @@ def policy_paths(
 
 
 def plot_policies(paths: Paths, **where: Unpack[Where]) -> Axes:
-    """Imagined paths, each way as strong as it is probable that it will be walked, with a dot where paths end.
+    """Imagined paths. Each link is as strong as the agent will probably walk it, and a dot marks where paths end.
 
     They are grey over a maze, and blue, beneath the places, over a map.
 

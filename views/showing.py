@@ -1,7 +1,5 @@
 """A recorded walk inside of a notebook."""
 
-from __future__ import annotations
-
 import html
 from dataclasses import dataclass
 
@@ -12,15 +10,10 @@ from .replay import replay_html
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A page in a frame of its own: it can reach nothing of the notebook around it.
+    """A page in an isolated frame, which cannot reach the notebook around it."""
 
-    Attributes:
-        page: the page, as `replay_html` makes it.
-        height: of the frame, in pixels.
-    """
-
-    page: str
-    height: int
+    page: str  # the page, as `replay_html` makes it
+    height: int  # of the frame, in pixels
 
     def _repr_html_(self) -> str:
         text = html.escape(self.page, quote=True).replace("\n", "&#10;")  # whoever joins our lines leaves its own
@@ -32,7 +25,7 @@ class Shown:
 
 
 def show(recording: Recording, *, height: int = 720) -> Shown:
-    """The replay page of a recording, for a notebook to show as the last value of a cell.
+    """The replay page of a recording, to be shown as the last value of a notebook cell.
 
     Raises:
         CogmapError: it is no recording, a height below 100, or positions of more than two dimensions.

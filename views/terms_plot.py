@@ -1,19 +1,14 @@
 """What the best policies are worth, term by term; terms are drawn and told as each says of itself."""
 
-from __future__ import annotations
-
 from itertools import groupby
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..model import CogmapError
 from ..planning import Plan, Term
-from .axes import Where, axes_or_new, legend_below
+from .axes import Axes, Where, axes_or_new, legend_below
 from .theme import Theme, theme_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 NOTHING = 1e-6  # nats; a term that is smaller in all that is shown is left out
 LONGEST = 34  # signs of a policy's name
@@ -23,7 +18,7 @@ _HATCHES = ("", "", "...", "///", "\\\\\\", "xxx", "++", "oo")
 
 
 def plot_terms(plan: Plan, *, most: int = 8, **where: Unpack[Where]) -> Axes:
-    """The policies with the least G, best on top, each as bars of its terms in nats; their sum is the diamond, G.
+    """The policies with the least G, best at the top, as bars of their terms in nats. The diamond is their sum, G.
 
     What counts against G, such as information and utility, goes to the left, costs go to the right. The chosen policy
     is marked by ▶; it comes last where others are better.

@@ -21,7 +21,7 @@ _OTHER = {"left": "right", "right": "left"}
 
 
 class CueMaze(gym.Env[Observation, Any]):
-    """A trial begins in the centre. From there and from the cue one may go anywhere, from an arm nowhere.
+    """The T maze with a cue. A trial begins in the centre; centre and cue lead everywhere, the arms nowhere.
 
     In which arm the reward is, the context, is drawn at each reset; each look at the cue points there as often as it is
     right. Who enters the right arm is rewarded, once. After Friston et al., Cognitive Neuroscience 2015, 6, 187.
@@ -61,11 +61,7 @@ class CueMaze(gym.Env[Observation, Any]):
         return self._sensed(), self._info()
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """Go there, if one can; the trial ends after so many moves.
-
-        Raises:
-            WorldError: no such action.
-        """
+        """Go there, if one can; the trial ends after so many moves. Raises WorldError: no such action."""
         if action not in range(len(self.motions.names)):
             raise WorldError(f"no action {action!r}; use 0 to 4 ({', '.join(self.motions.names)})")
         name = self.motions.names[int(action)]
@@ -112,7 +108,7 @@ def points(arm: str) -> str:
 
 
 def best_cue_action(place: str, seen: int, *, right: float, moves: int) -> str:
-    """What brings most rewards, exactly, with so many moves left: a name of `CueMaze.motions`.
+    """The action that brings the highest expected reward in the remaining moves, exactly.
 
     Args:
         place: where the agent is.

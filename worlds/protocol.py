@@ -1,7 +1,5 @@
 """What a world is, and what else it may offer, as protocols: each use asks for no more than it needs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
@@ -19,7 +17,7 @@ Offer = TypeVar("Offer")
 
 @runtime_checkable
 class World(Protocol):
-    """A `gymnasium.Env` with motions; the truth about it is in `info` alone."""
+    """A `gymnasium.Env` with motions. The truth is in `info` alone."""
 
     @property
     def motions(self) -> Motions:
@@ -93,7 +91,7 @@ class HasChart(Protocol):
 
 @runtime_checkable
 class CanDisplace(Protocol):
-    """A world in which the agent can be moved without a word."""
+    """A world in which the agent can be silently moved."""
 
     def displace(self, place: Place) -> Observation:
         """Move the agent to `place`, and return what it senses there."""
@@ -136,7 +134,7 @@ class CanClose(Protocol):
 
 
 def offered(world: Any, kind: type[Offer], what: str) -> Offer:
-    """`world` or the environment inside its wrappers, whichever offers `kind` first, the outermost first.
+    """The outermost of `world` and its wrapped environments that offers `kind`.
 
     Raises:
         WorldError: none does; `what` is the subject, such as "kidnapping".
@@ -148,11 +146,7 @@ def offered(world: Any, kind: type[Offer], what: str) -> Offer:
 
 
 def place_of(info: Mapping[str, Any]) -> Place:
-    """The true place of the agent in the `info` of a step.
-
-    Raises:
-        WorldError: it is not told.
-    """
+    """The true place of the agent in the `info` of a step. Raises WorldError: it is not told."""
     for key in ("place", "position"):
         if key in info:
             return info[key]

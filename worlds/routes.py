@@ -1,7 +1,5 @@
 """Shortest ways among the places of a chart."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Callable, Collection, Sequence
 from itertools import pairwise
@@ -15,7 +13,7 @@ BY = ("steps", "length")
 
 
 class Routes:
-    """The places next to each place, looked up when they are asked for.
+    """The neighbours of each place, looked up on demand.
 
     Args:
         chart: the true map.

@@ -1,7 +1,5 @@
 """Other environments as worlds, and worlds in which less is sensed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -15,9 +13,11 @@ from .motions import Motions
 from .protocol import HasChart, Observation, World, offered
 from .spaces import PerAction
 
+_LISTED = ("bearings", "lengths")  # What is told of each way
+
 
 class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):
-    """A world in which no sensor tells whether a way is open.
+    """Takes the sensor of ways away from a world.
 
     Observations have no key `open`; where ways belong to the place they are listed, each with None (not looked at).
     """
@@ -44,10 +44,11 @@ class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):
 
 
 class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
-    """A world whose ways belong to the place, for agents whose actions are those of the whole world.
+    """Gives a world with local ways a fixed list of actions: action i takes the i-th way that is listed.
 
     Action 0 stays, action i takes the i-th way that is listed; a place with fewer ways has the others shut.
-    Observations have `open` instead of `ways`, and `bearings`, where they are told, list one an action, None of no way.
+    Observations have `open` instead of `ways`; `bearings` and `lengths`, where they are told, list one an action,
+    None of no way.
 
     Args:
         world: its `motions.local` is true.
@@ -65,9 +66,9 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
         self.motions = Motions(("stay", *(f"way {i}" for i in range(1, most))))
         self.action_space = spaces.Discrete(most)
         inner: Any = world.observation_space
-        sensed = {key: space for key, space in inner.spaces.items() if key not in ("ways", "bearings")}
+        sensed = {key: space for key, space in inner.spaces.items() if key not in ("ways", *_LISTED)}
         self._sensed = {*sensed}
-        told: dict[str, spaces.Space[Any]] = {"bearings": PerAction(most)} if "bearings" in inner.spaces else {}
+        told: dict[str, spaces.Space[Any]] = {key: PerAction(most) for key in _LISTED if key in inner.spaces}
         self.observation_space = spaces.Dict({**sensed, **told, "open": spaces.MultiBinary(most)})
 
     def reset(
@@ -95,14 +96,15 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
         ways = [True, *map(bool, observation["ways"].values())]
         none = len(self.motions.names) - len(ways)
         seen["open"] = np.array(ways + [False] * none)
-        if "bearings" in observation:
-            told = observation["bearings"]
-            seen["bearings"] = (None, *(told.get(way) for way in observation["ways"]), *(None,) * none)
+        for key in _LISTED:
+            if key in observation:
+                told = observation[key]
+                seen[key] = (None, *(told.get(way) for way in observation["ways"]), *(None,) * none)
         return seen
 
 
 class StateWorld(gym.Wrapper[Observation, Any, Any, Any]):
-    """A world made of an environment that observes and acts by numbers, such as `FrozenLake-v1`.
+    """Makes a world from an environment with numbered states and actions, such as `FrozenLake-v1`.
 
     The number observed is the sight, and the true place in `info["place"]`. Ways are not sensed. `stay` is added if no
     motion stays: it is not carried out, and the last observation comes again.

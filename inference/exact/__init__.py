@@ -1,7 +1,5 @@
 """The exact engines: bucket elimination in numpy, gtsam, and enumeration."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 
 from ...model import FactorGraph
@@ -17,36 +15,11 @@ from .solution import Solution
 from .tables import Table, eliminated, in_logs, product, times
 
 __all__ = [
-    "CHEAP",
-    "ENGINES",
-    "MEMORY",
-    "BucketTree",
-    "Buckets",
-    "Elimination",
-    "Order",
-    "Pass",
-    "Problem",
-    "Solution",
-    "Table",
-    "Where",
-    "best_first",
-    "buckets",
-    "draw",
-    "eliminated",
-    "entropy",
-    "forward",
-    "in_logs",
-    "marginal_maximum",
-    "maximise",
-    "plan_elimination",
-    "product",
-    "reduce",
-    "solve",
-    "times",
-    "traced",
-    "tree_of",
+    "CHEAP", "ENGINES", "MEMORY", "BucketTree", "Buckets", "Elimination", "Order", "Pass", "Problem", "Solution",
+    "Table", "Where", "best_first", "buckets", "draw", "eliminated", "entropy", "forward", "in_logs",
+    "marginal_maximum", "maximise", "plan_elimination", "product", "reduce", "solve", "times", "traced", "tree_of",
     "without",
-]
+]  # fmt: skip
 
 ENGINES = ("numpy", "gtsam", "brute")
 

@@ -20,26 +20,7 @@ from .scheme import Sensed, WayScheme
 from .tracker import Tracker
 
 __all__ = [
-    "NOWHERE",
-    "Change",
-    "Checkpoint",
-    "Hypothesis",
-    "Lead",
-    "Place",
-    "RateOf",
-    "Sensed",
-    "Share",
-    "Tracker",
-    "TrackerOptions",
-    "Way",
-    "WayScheme",
-    "label_probabilities",
-    "open_probability",
-    "rates_of",
-    "readings_of",
-    "together",
-    "tracker_knowing",
-    "ways_misread",
-    "where_to",
-    "whereabouts",
-]
+    "NOWHERE", "Change", "Checkpoint", "Hypothesis", "Lead", "Place", "RateOf", "Sensed", "Share", "Tracker",
+    "TrackerOptions", "Way", "WayScheme", "label_probabilities", "open_probability", "rates_of", "readings_of",
+    "together", "tracker_knowing", "ways_misread", "where_to", "whereabouts",
+]  # fmt: skip

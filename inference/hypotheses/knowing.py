@@ -1,7 +1,5 @@
 """A tracker that begins with a map that is known."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from .chances import Chances
@@ -22,7 +20,7 @@ def tracker_knowing(
     labels: Sequence[int],
     options: TrackerOptions | None = None,
 ) -> Tracker:
-    """A tracker with one hypothesis: these places, by number, what was read there, and where their ways lead.
+    """A tracker with one hypothesis, built from known places: their readings and where their ways lead.
 
     Args:
         scheme: the ways.

@@ -1,14 +1,11 @@
 """What a hypothesis holds of a place and of its ways; records are never changed, but replaced."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 NOWHERE = -1
 """Where a way leads that was never walked."""
 
-RECENT = 8
-"""Visits whose time is kept with a place."""
+RECENT = 8  # visits whose time is kept with a place
 
 Position = tuple[int, ...]
 SightCounts = dict[int, float]
@@ -36,7 +33,7 @@ class Way(NamedTuple):
 
 
 class Share(NamedTuple):
-    """What a place adds to the counts of the rates: expected numbers, given what is believed of it.
+    """What one place contributes to the counts of the rates, as expected numbers.
 
     `stayed` are the times that the agent did not get through a way that was open, and `strayed` the share of other
     actions that would have kept it there, summed over these.

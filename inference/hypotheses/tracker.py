@@ -8,6 +8,7 @@ from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
+from .afresh import first_told, is_odd, tries_until
 from .attempts import CONTRADICTED, NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
@@ -24,10 +25,11 @@ from .rates import ELSEWHERE
 from .reading import together, whereabouts
 from .recharting import recharted
 from .records import NOWHERE
-from .replaying import History, doubted, without
+from .replaying import OFTEN, History, doubted, replayed, without
 from .scheme import Sensed, WayScheme
 from .storing import Arrays, Parts, restored, stored
 from .straightening import straightened
+from .surveying import surveyed
 
 QUIET = 4
 """Steps without doubt after which what is improbable is let go."""
@@ -47,12 +49,18 @@ DECIDED = 256
 CLANS = 4
 """Hypotheses of that time that may still be open."""
 
+DOUBTED = 4
+"""Places that are looked at a step where the agent is moved often."""
+
+SURVEYS = (32, 64, 128, 256, 480)
+"""Steps at which the whole walk is surveyed, where something is in doubt then; later ones would not know all of it."""
+
 MANY = 4096
 """Foldings that are remembered."""
 
 
 class Tracker:
-    """Where the agent is, and in what map.
+    """Weighted hypotheses about the map and about the agent's place in it.
 
     Attributes:
         scheme: what is known of ways beforehand.
@@ -81,6 +89,7 @@ class Tracker:
         self._overwritten: list[tuple[Attempt, Tried | None]] = []
         self._clear, self._quiet = True, 0
         self._past: tuple[Past, ...] = ()
+        self._tries, self._partly = 0, False
 
     @property
     def best(self) -> Hypothesis:
@@ -113,11 +122,12 @@ class Tracker:
         if len(self._tried) > MANY:
             self._tried = {}
         self.history.add(sensed, self.time)
+        self._partly = self._partly or sensed.others is not None
         self.labels, self.awake = tuple(n + 1 for n in labels), awake_ways(self.scheme, self.awake, sensed)
         for h in self.hypotheses:
             h.awake = self.awake
         if self.hypotheses:
-            self.hypotheses = self._advanced(sensed)
+            self.hypotheses = self._afresh(self._advanced(sensed))
         else:
             self.hypotheses = [self._first(sensed)]
         for h in self.hypotheses:
@@ -142,7 +152,7 @@ class Tracker:
         """What `rollback` needs to undo the next step; it costs as much as there are hypotheses."""
         self._overwritten = []  # what the step before has overwritten is not to be put back
         kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
-        kept += self._clear, self._quiet, self._past, self.awake
+        kept += self._clear, self._quiet, self._past, self.awake, self._tries, self._partly
         return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
 
     def rollback(self, checkpoint: Checkpoint) -> None:
@@ -158,7 +168,7 @@ class Tracker:
             )
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
         self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
-        self._clear, self._quiet, self._past, self.awake = rest
+        self._clear, self._quiet, self._past, self.awake, self._tries, self._partly = rest
         for key, before in reversed(self._overwritten if tried is self._tried else ()):
             if before is None:
                 tried.pop(key, None)
@@ -171,7 +181,7 @@ class Tracker:
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
         """All that `restored` needs to walk on: a header for JSON, and arrays of numbers."""
-        numbers = self.time, self._doubted, self._clear, self._quiet
+        numbers = self.time, self._doubted, self._clear, self._quiet, self._tries, self._partly
         parts = Parts(
             self.hypotheses, self.history, self._tried, self._past, self.change, self._doubts, self.labels,
             self.evidence, numbers, self.awake,
@@ -191,7 +201,8 @@ class Tracker:
         tracker.hypotheses, tracker.history, tracker.labels = parts.hypotheses, parts.history, parts.labels
         tracker.evidence, tracker.change, tracker._tried = parts.evidence, parts.change, parts.tried
         tracker._past, tracker._doubts = parts.past, parts.doubts
-        tracker.time, tracker._doubted, tracker._clear, tracker._quiet = parts.numbers
+        tracker.time, tracker._doubted, tracker._clear, tracker._quiet, *rest = parts.numbers
+        tracker._tries, tracker._partly = rest
         tracker.awake = parts.awake
         for h in tracker.hypotheses:
             h.awake, h.chances = tracker.awake, Chances(h.counts, tracker.labels, size=h.size)
@@ -205,6 +216,7 @@ class Tracker:
         first.chances = Chances(first.counts, self.labels)
         self.evidence = log_predictive(first, sensed, None, None, NOWHERE)
         self.change = Change("revised")
+        self.history.weigh(self.evidence)
         begin(first, sensed, self.time)
         return first
 
@@ -222,13 +234,34 @@ class Tracker:
             likeliest = max(happened, key=lambda branch: branch.weight)
             happened = [branch for branch in happened if not apart(branch, likeliest)]
         children = [self._extended(branch, sensed) for branch in happened]
-        proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
+        best = max(children, key=lambda h: h.weight)
+        proposed = [*self._folded(children, drop), *self._without(best, drop), *self._surveyed(best, sensed, drop)]
         found = merged(children, proposed)
         found = self._decided([h for h in found if h.weight > found[0].weight - drop])
         found = self._doubted_or_clear(found, previous, sensed, drop)
         best = found[0]
         self.change = Change("extended", tuple(best.touched)) if best.origin is previous else Change("revised")
         return found
+
+    def _afresh(self, found: list[Hypothesis]) -> list[Hypothesis]:
+        """Those that a tracker finds which is told the later steps alone, where they explain all steps better."""
+        tries = self._tries
+        if self._clear or self._partly or not is_odd(found[0]) or tries_until(self.time, tries) == tries:
+            return found
+        history, first = self.history, first_told(self.history.start, self.time, tries)
+        self._tries = tries_until(self.time, tries)
+        other = Tracker(self.scheme, self.options)
+        other.time, other.awake, other._partly = first, self.awake, True
+        for time in range(first, self.time + 1):
+            other.step(history[time], [n - 1 for n in self.labels])
+        earlier = replayed(other.best, history, history.start, first - 1, skip=(), start_without=())[0]
+        gain = other.history.norm(first) + earlier - history.norm(history.start + 1)
+        if other.best.weight + gain <= found[0].weight:
+            return found
+        history.revalue(gain)
+        self._tried, self._past, self._doubted, self._quiet = {}, (), 0, 0
+        self.change = Change("revised")
+        return other.hypotheses
 
     def _decided(self, found: list[Hypothesis]) -> list[Hypothesis]:
         """Now and then those alone that go back to the few hypotheses of some time ago that nearly all go back to."""
@@ -258,6 +291,7 @@ class Tracker:
             self._clear, self._quiet = False, 0
         found, norm = normalised(found, drop=wide, most=self.options.most)
         self._past = (*self._past, step._replace(norm=norm))[-BACK:]
+        self.history.weigh(norm)
         if not self._clear:
             self._quiet = 0 if self._open_question(found) else self._quiet + 1
             if self._quiet > QUIET:
@@ -311,9 +345,16 @@ class Tracker:
         return results
 
     def _without(self, h: Hypothesis, drop: float) -> Iterator[Hypothesis]:
-        """The most probable hypothesis without some place that it may only have imagined; one is looked at a step."""
+        """The most probable hypothesis without some place that it may only have imagined.
+
+        One is looked at a step; where the agent is moved often, and so many are in doubt, a few.
+        """
         if h.crowd is not None:
             return
+        for _ in range(DOUBTED if h.chances.moved > OFTEN else 1):
+            yield from self._without_one(h, h.weight - drop)
+
+    def _without_one(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
         if self._doubted == 0:
             self._doubts = list(h.places)
             self._doubted = len(self._doubts)
@@ -321,8 +362,8 @@ class Tracker:
         number = self._doubts[self._doubted]
         place = h.places.get(number)
         for one in {number, h.here} if place is not None else {h.here}:
-            yield from self._rethought(h, one, h.weight - drop)
-        key, floor = (number, number, False, 0), h.weight - drop
+            yield from self._rethought(h, one, floor)
+        key = (number, number, False, 0)
         if place is None or self._tried.get(key, NEVER).blocks(h, self.time, floor):
             return
         if numbers := doubted(h, number, self.history):
@@ -331,6 +372,18 @@ class Tracker:
                 yield other
             else:
                 self._in_vain(key, h, IN_VAIN)
+
+    def _surveyed(self, best: Hypothesis, sensed: Sensed, drop: float) -> Iterator[Hypothesis]:
+        """Now and then, while something is in doubt, the map in which each label is one place."""
+        if self.time not in SURVEYS or self._clear or self.history.start or self.history.end > self.time + 1:
+            return
+        if self.scheme.displacements is None or sensed.others is not None or not self.scheme.sensors:
+            return
+        total = self.history.norm(0)
+        found = surveyed(best, self.history, floor=total + best.weight - drop)
+        if found is not None:
+            found.weight -= total
+            yield found
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
         """The foldings that are probable enough."""

@@ -1,7 +1,5 @@
 """The factors of the generative model (eq. 1), one class a file."""
 
-from __future__ import annotations
-
 from .base import Context, ModelFactor, Successors, Support, Table, parts_of
 from .bearings import Bearings
 from .contexts import Contexts
@@ -23,29 +21,7 @@ SENSORS: dict[str, type[Sensor]] = {
 """Kinds of sensors by name."""
 
 __all__ = [
-    "BLOCKED",
-    "ELSEWHERE",
-    "OPEN",
-    "POSES",
-    "SENSORS",
-    "UNKNOWN",
-    "Ahead",
-    "Bearings",
-    "Context",
-    "Contexts",
-    "Displacement",
-    "Features",
-    "Lattice",
-    "ModelFactor",
-    "NoPose",
-    "Plane",
-    "Pose",
-    "Sensor",
-    "Sight",
-    "Successors",
-    "Support",
-    "Table",
-    "Transition",
-    "Ways",
-    "parts_of",
-]
+    "BLOCKED", "ELSEWHERE", "OPEN", "POSES", "SENSORS", "UNKNOWN", "Ahead", "Bearings", "Context", "Contexts",
+    "Displacement", "Features", "Lattice", "ModelFactor", "NoPose", "Plane", "Pose", "Sensor", "Sight", "Successors",
+    "Support", "Table", "Transition", "Ways", "parts_of",
+]  # fmt: skip

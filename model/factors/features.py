@@ -1,7 +1,5 @@
 """P(x | s) of a vector of features: which prototype a place looks like, known again by a likelihood."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -21,7 +19,7 @@ NEGLIGIBLE = 1e-6
 
 
 class Features(Sight):
-    """Senses a vector in each place, such as what a network makes of a picture.
+    """A sensor of feature vectors, such as those that a network computes from an image.
 
     It keeps prototypes, by which it knows vectors again, and gets another one when a vector is more probable as
     something new; for the rest of the model it is a sight of which each label is the number of a prototype, and each
@@ -54,7 +52,6 @@ class Features(Sight):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Name, size, noise and prior."""
         return {"name": self.name, "size": self.size, "noise": self.noise, "prior": self._prior}
 
     @property
@@ -68,21 +65,15 @@ class Features(Sight):
         return self.memory.spread
 
     def join(self, context: Context, transitions: Transition) -> None:
-        """Make it part of a model."""
         super().join(context, transitions)
         self.memory = Prototypes(f"{self.name}.prototypes", size=self.size, noise=self.noise)
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """The counts, and the prototypes."""
         return (*super().stores, self.memory)
 
     def check(self, value: Any) -> Floats:
-        """The vector, as numbers.
-
-        Raises:
-            CogmapError: it is no vector of `size` finite numbers.
-        """
+        """The vector, as numbers. Raises CogmapError: it is no vector of `size` finite numbers."""
         if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():  # pyright: ignore[reportUnknownArgumentType, reportUnknownMemberType]
             raise CogmapError(f"observation: {self.name} is masked; give UNSEEN where nothing was seen")
         try:
@@ -115,12 +106,14 @@ class Features(Sight):
         likely = np.flatnonzero(told >= NEGLIGIBLE).tolist()
         return likely[0] if len(likely) == 1 else {number: float(told[number]) for number in likely}
 
-    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, Any], places: int) -> None:
-        """Take over labels, counts and prototypes.
+    def glance(self, checked: Any, *, step: int) -> Reading:
+        """Likelihoods of the prototypes that there are, beside which something new may fit better."""
+        known, new = self.memory.log_likelihoods(checked)
+        told = np.exp(known - max(known.max(initial=new), new))
+        return {number: float(told[number]) for number in self.memory.numbers}
 
-        Raises:
-            CogmapError: not one label a prototype.
-        """
+    def restore(self, state: Mapping[str, Any], arrays: Mapping[str, Any], places: int) -> None:
+        """Take over labels, counts and prototypes. Raises CogmapError: not one label a prototype."""
         super().restore(state, arrays, places)
         self.memory.restore({part: arrays[f"{self.memory.name}.{part}"] for part in self.memory.state()})
         if self.memory.count != len(self.labels):

@@ -1,7 +1,5 @@
 """What every sensor offers: its part P(reading | s) of the likelihood."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable
 from typing import Any
 
@@ -16,7 +14,7 @@ _TAKEN = frozenset({"s", "p", "o", "c", "Q", "M", "places", "visits", "transitio
 
 
 class Sensor(ModelFactor):
-    """A sensor of the place that the agent is in. Observations give its reading under its name.
+    """A sensor. Observations have its reading under its name.
 
     A class of your own has `log_likelihood` at least; whatever it must remember it learns in `learn`.
 
@@ -47,7 +45,6 @@ class Sensor(ModelFactor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Its name."""
         return {"name": self.name}
 
     def join(self, context: Context, transitions: Transition) -> None:
@@ -67,6 +64,10 @@ class Sensor(ModelFactor):
     def read(self, checked: Any, *, step: int) -> Any:
         """The reading that a checked value is; domains grow with what was never sensed before."""
         return checked
+
+    def glance(self, checked: Any, *, step: int) -> Any:
+        """The same reading, of a value that is not to be learned from: it will be read later, or never."""
+        return self.read(checked, step=step)
 
     def label(self, reading: Any) -> Hashable:
         """The reading as the graph shows it."""
@@ -94,7 +95,6 @@ class Sensor(ModelFactor):
         return None
 
     def tables(self, support: Support) -> Iterable[Table]:
-        """Its likelihood of what was sensed."""
         if self.name in support.likelihoods:
             reading = support.percept.readings[self.name]
             o, s = f"{self.variable}{support.step}", f"s{support.step}"

@@ -1,7 +1,5 @@
 """P(c | s): which ways are sensed open; learned as transitions are."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from math import log
 from typing import Any
@@ -14,12 +12,11 @@ from .readings import WayReading, checked_ways
 from .sensor import Sensor
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 
-Looks = Sequence[WayReading]
-"""A reading an action."""
+Looks = Sequence[WayReading]  # A reading an action
 
 
 class Ways(Sensor):
-    """Senses of each action whether its way is open: `open` in observations.
+    """A sensor of whether the way of each action is open: `open` in observations.
 
     That is one reading an action, in a list, an array (masked where not looked at) or a mapping by name: true, false,
     P(open), or None where it was not looked at.
@@ -40,7 +37,6 @@ class Ways(Sensor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Whether the rates of ways are learned."""
         return {"learned": True} if self._learned else {}
 
     def join(self, context: Context, transitions: Transition) -> None:
@@ -54,11 +50,9 @@ class Ways(Sensor):
         return UNSEEN if ways is None else ways
 
     def log_likelihood(self, places: Ints, reading: Looks) -> Floats:
-        """`[n]` log P(doors as sensed | s)."""
         return np.log(self._each(places, reading)).sum(axis=1)
 
     def likelihood(self, places: Ints, reading: Looks) -> Floats:
-        """`[n]` P(doors as sensed | s)."""
         return np.multiply.reduce(self._each(places, reading), axis=1)
 
     def _each(self, places: Ints, reading: Looks) -> Floats:

@@ -1,7 +1,5 @@
 """The language: discrete factor graphs declared, shown, written and read."""
 
-from __future__ import annotations
-
 from .conditional import ConditionalTable, LearnableTable
 from .export import equation, quoted
 from .factor_graph import FactorGraph
@@ -12,25 +10,7 @@ from .template import Before, Template, before
 from .variables import Variable
 
 __all__ = [
-    "AllEvidence",
-    "Before",
-    "ConditionalTable",
-    "Evidence",
-    "Factor",
-    "FactorGraph",
-    "FloatArray",
-    "GraphStructure",
-    "IntArray",
-    "LabelledTable",
-    "LearnableTable",
-    "SparseValues",
-    "Template",
-    "Variable",
-    "before",
-    "equation",
-    "labelled",
-    "log_bounds",
-    "quoted",
-    "sparse_values",
-    "table",
-]
+    "AllEvidence", "Before", "ConditionalTable", "Evidence", "Factor", "FactorGraph", "FloatArray", "GraphStructure",
+    "IntArray", "LabelledTable", "LearnableTable", "SparseValues", "Template", "Variable", "before", "equation",
+    "labelled", "log_bounds", "quoted", "sparse_values", "table",
+]  # fmt: skip

@@ -1,16 +1,13 @@
 """A place exists once it was entered (figure on internal map layouts, b)."""
 
-from __future__ import annotations
-
 from ..generative import GenerativeModel
 from .base import Growth, Whereabouts, place_beyond
 
 
 class ObservedGrowth(Growth):
-    """Grows on entering; the doors that were not taken are forgotten."""
+    """Adds a place when the agent enters it. Doors that were not taken add nothing."""
 
     name = "observed"
 
     def enter(self, map_: GenerativeModel, belief: Whereabouts, action: int, *, step: int) -> list[int]:
-        """The place behind the door that was taken."""
         return place_beyond(map_, belief.place, action, step=step)

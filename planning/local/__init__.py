@@ -10,15 +10,6 @@ from .transitions import Transitions
 from .view import MapView
 
 __all__ = [
-    "Frontier",
-    "LocalCache",
-    "LocalModel",
-    "MapHypotheses",
-    "MapView",
-    "Preferences",
-    "State",
-    "Structure",
-    "Surroundings",
-    "Transitions",
-    "local_model",
-]
+    "Frontier", "LocalCache", "LocalModel", "MapHypotheses", "MapView", "Preferences", "State", "Structure",
+    "Surroundings", "Transitions", "local_model",
+]  # fmt: skip

@@ -14,15 +14,6 @@ POLICIES: dict[str, type[PolicyGenerator]] = {
 """The generators by name, for command lines and files."""
 
 __all__ = [
-    "BY",
-    "MAX_LOOK_AHEAD",
-    "MAX_POLICIES",
-    "POLICIES",
-    "Exhaustive",
-    "LShaped",
-    "MapGuided",
-    "Options",
-    "Policies",
-    "PolicyGenerator",
-    "SelfAvoiding",
-]
+    "BY", "MAX_LOOK_AHEAD", "MAX_POLICIES", "POLICIES", "Exhaustive", "LShaped", "MapGuided", "Options", "Policies",
+    "PolicyGenerator", "SelfAvoiding",
+]  # fmt: skip

@@ -7,15 +7,13 @@ from operator import itemgetter
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...model import CogmapError, Motions
+from ...model import CogmapError, Floats, Motions
 from ..local import LocalModel, Surroundings
 from .base import MAX_POLICIES, Ints, Policies, PolicyGenerator, padded
 from .far_ways import MORE, far_ways
 from .telling import telling_walks
 
-Floats = NDArray[np.float64]
 LEAST = 1e-3  # nats; a first visit that is worth less is worth nothing
 SHARE = 0.1  # nor is one below this share of the greatest value in the model
 GREAT = 0.5  # share of the greatest value that a start must have within look-ahead, or it looks beyond
@@ -34,7 +32,7 @@ Archive = dict[int, list[tuple[int, float]]]
 
 @dataclass(frozen=True, slots=True)
 class MapGuided(PolicyGenerator):
-    """A prefix tree over `LocalModel.successor` from each place the agent may be at.
+    """Policies that follow the map: a prefix tree over `LocalModel.successor` from each place the agent may be in.
 
     The value of a prefix is the first-visit value of the places on it, each counted once, plus the utility of its
     visits (staying at its end) less its risk of collision. Every kept prefix is a policy that then stays.
@@ -53,15 +51,12 @@ class MapGuided(PolicyGenerator):
 
     `Policies.cut` is the number of prefixes that the beam dropped.
 
-    Attributes:
-        beam: prefixes kept a level, shared by the starts.
-
     Raises:
         CogmapError: `beam` is no whole number from 1 to `MAX_POLICIES`.
     """
 
     name: ClassVar[str] = "map_guided"
-    beam: int = 64
+    beam: int = 64  # prefixes kept a level, shared by the starts
 
     def __post_init__(self) -> None:
         whole = isinstance(self.beam, int | np.integer)  # pyright: ignore[reportUnnecessaryIsInstance]
@@ -90,7 +85,7 @@ class MapGuided(PolicyGenerator):
             if MORE * best < skeleton.greatest:
                 paths += _beyond(skeleton, start, best)
         if model.structure is not None:
-            for path in telling_walks(model.structure, model.motions):
+            for path in telling_walks(model.structure):
                 paths += _telling(skeleton, starts[0], path, model.look_ahead)
         return Policies(padded(paths, stay=model.motions.stay, length=model.look_ahead), cut)
 
@@ -105,7 +100,7 @@ class MapGuided(PolicyGenerator):
         far = far_ways(around)
         if around.structure is None:
             return far
-        walks = telling_walks(around.structure, around.map.motions)
+        walks = telling_walks(around.structure)
         return np.union1d(far, [place for walk in walks for place in _along(around, walk)]).astype(np.int64)
 
 

@@ -1,35 +1,25 @@
 """Walks that tell hypotheses about the map apart."""
 
-from __future__ import annotations
-
 from collections import deque
 
-from ...model import Motions
 from ..local import State, Structure
 from .far_ways import MORE
 
 Path = tuple[int, ...]
 
-STATES = 1000
-"""Joint states of the hypotheses that the search looks at, at most."""
-
-ENOUGH = 0.9
-"""Share of what there is to be told from which no longer walk is looked for."""
-
-LEAST_TOLD = 2e-3
-"""Nats about the map below which a walk is not worth its steps."""
-
-MANY = 8
-"""Walks that are found, at most."""
+STATES = 1000  # joint states of the hypotheses that the search looks at, at most
+ENOUGH = 0.9  # share of what there is to be told from which no longer walk is looked for
+LEAST_TOLD = 2e-3  # nats about the map below which a walk is not worth its steps
+MANY = 8  # walks that are found, at most
 
 
-def telling_walks(structure: Structure, motions: Motions) -> list[Path]:
+def telling_walks(structure: Structure) -> list[Path]:
     """The shortest walks that tell so much, and more than all that are shorter; the last of them tell most.
 
     Breadth first over where the agent would be under each hypothesis, however far, so that an agent in doubt goes where
     it will know, when all is visited too.
     """
-    moves = [action for action in range(len(motions)) if action != motions.stay]
+    moves = structure.hypotheses.moves
     queue, seen = deque[tuple[Path, State]]([((), structure.start)]), {structure.start}
     found, best = list[Path](), LEAST_TOLD
     while queue and best < ENOUGH * structure.entropy and len(seen) < STATES:

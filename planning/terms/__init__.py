@@ -27,21 +27,7 @@ TERMS: tuple[Term, ...] = (
 """The terms of the paper, and one about the map as a whole, in the order in which they are shown."""
 
 __all__ = [
-    "KINDS",
-    "TERMS",
-    "Collision",
-    "Cost",
-    "Learned",
-    "PositionInformation",
-    "Rollout",
-    "SightInformation",
-    "StateInformation",
-    "Staying",
-    "Step",
-    "StructureInformation",
-    "Term",
-    "TransitionInformation",
-    "Utility",
-    "WayBack",
-    "WayThere",
-]
+    "KINDS", "TERMS", "Collision", "Cost", "Learned", "PositionInformation", "Rollout", "SightInformation",
+    "StateInformation", "Staying", "Step", "StructureInformation", "Term", "TransitionInformation", "Utility",
+    "WayBack", "WayThere",
+]  # fmt: skip

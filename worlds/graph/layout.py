@@ -1,7 +1,5 @@
 """The places of a graph and the ways between them, as arrays: a hundred thousand places take some tens of megabytes."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -24,34 +22,20 @@ class Layout:
 
     The ways of the i-th place are the entries `first[i]` to `first[i + 1]` of `target`, `ways`, `bearings` and
     `lengths`, in the order in which the agent is told of them.
-
-    Attributes:
-        name: what the world is called.
-        places: the ids of the nodes.
-        sensors: names of the sensors.
-        labels: of each sensor, the label at each place.
-        motions: the actions.
-        pose: what is told of a pose; see `POSES`.
-        first: `[R + 1]`.
-        target: `[W]` the number of the place that each way leads to.
-        ways: `[W]` labels, no two alike at one place.
-        bearings: `[W]` degrees, 0 is +y, clockwise; None where unknown.
-        lengths: `[W]` in the unit of the file; None where unknown.
-        coordinates: `[R, 2 or 3]` where each place lies; None where unknown.
     """
 
-    name: str
-    places: tuple[Any, ...]
-    sensors: tuple[str, ...]
-    labels: tuple[tuple[Any, ...], ...]
-    motions: Motions
-    pose: str
-    first: NDArray[np.int64]
-    target: NDArray[np.int32]
-    ways: tuple[Any, ...]
-    bearings: Floats | None
-    lengths: Floats | None
-    coordinates: Floats | None
+    name: str  # what the world is called
+    places: tuple[Any, ...]  # the ids of the nodes
+    sensors: tuple[str, ...]  # names of the sensors
+    labels: tuple[tuple[Any, ...], ...]  # of each sensor, the label at each place
+    motions: Motions  # the actions
+    pose: str  # what is told of a pose; see `POSES`
+    first: NDArray[np.int64]  # `[R + 1]`
+    target: NDArray[np.int32]  # `[W]` the number of the place that each way leads to
+    ways: tuple[Any, ...]  # `[W]` labels, no two alike at one place
+    bearings: Floats | None  # `[W]` degrees, 0 is +y, clockwise; None where unknown
+    lengths: Floats | None  # `[W]` in the unit of the file; None where unknown
+    coordinates: Floats | None  # `[R, 2 or 3]` where each place lies; None where unknown
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Layout) and self._digest == other._digest
@@ -76,11 +60,7 @@ class Layout:
         return None if where is None else _Column(self._index, lambda i: tuple(where[i].tolist()))
 
     def find(self, place: Any) -> Any:
-        """`place` as it stands in `places`.
-
-        Raises:
-            WorldError: there is no such place.
-        """
+        """`place` as it stands in `places`. Raises WorldError: there is no such place."""
         return self.places[self._number(place)]
 
     def exits(self, place: Any) -> dict[Any, Any]:
@@ -101,6 +81,10 @@ class Layout:
     def told_bearings(self, place: Any) -> dict[Any, float]:
         """The bearing of each way of `place`, in degrees."""
         return {} if self.bearings is None else {self.ways[i]: float(self.bearings[i]) for i in self._row(place)}
+
+    def told_lengths(self, place: Any) -> dict[Any, float]:
+        """How long each way of `place` is."""
+        return {} if self.lengths is None else {self.ways[i]: float(self.lengths[i]) for i in self._row(place)}
 
     def length(self, place: Any, way: Any) -> float | None:
         """How long a way is; 0 of none, None where nobody knows."""

@@ -1,7 +1,5 @@
 """What every kind of pose offers."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 from typing import Any, Protocol
 
@@ -35,7 +33,7 @@ class Growing(Protocol):
 
 
 class Pose(ModelFactor):
-    """Where a place is, by the agent's own reckoning: P(p | s), and how actions change it.
+    """The agent's estimate of where a place is: P(p | s), and how actions change it.
 
     Poses are numbers; what a number stands for is in `positions`.
 

@@ -1,7 +1,5 @@
 """No positions at all: places are known by what is sensed there and by the ways that lead to them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...dirichlet import SparseDirichlet
@@ -13,7 +11,7 @@ from .base import Ahead, Pose
 
 
 class NoPose(Pose):
-    """Every place has the same pose, which says nothing."""
+    """No positions: every place has the same pose, which carries no information."""
 
     def attach(self, context: Context) -> None:
         """Make it part of a model."""

@@ -1,7 +1,5 @@
 """Factor graphs in the files of other programs: BIF, XMLBIF, UAI, GraphML."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
@@ -17,18 +15,9 @@ from .uai import read_uai, read_uai_evidence, write_uai, write_uai_evidence
 from .xmlbif import read_xmlbif, write_xmlbif
 
 __all__ = [
-    "load_graph",
-    "read_bif",
-    "read_uai",
-    "read_uai_evidence",
-    "read_xmlbif",
-    "save_graph",
-    "write_bif",
-    "write_graphml",
-    "write_uai",
-    "write_uai_evidence",
-    "write_xmlbif",
-]
+    "load_graph", "read_bif", "read_uai", "read_uai_evidence", "read_xmlbif", "save_graph", "write_bif",
+    "write_graphml", "write_uai", "write_uai_evidence", "write_xmlbif",
+]  # fmt: skip
 
 T = TypeVar("T")
 
