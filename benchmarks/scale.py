@@ -141,7 +141,7 @@ def save(rooms: int, asked: argparse.Namespace) -> Row:
         tracemalloc.start()
         loaded = Agent.load(path)
         held, _ = tracemalloc.get_traced_memory()
-        _plan_everywhere(loaded)
+        plan_everywhere(loaded)
         in_use, _ = tracemalloc.get_traced_memory()
         tracemalloc.stop()
     assert len(loaded.map.places) == rooms
@@ -149,7 +149,7 @@ def save(rooms: int, asked: argparse.Namespace) -> Row:
     return {"save_s": seconds[0], "load_s": seconds[1], **{name: value / rooms for name, value in a_room.items()}}
 
 
-def _plan_everywhere(agent: Agent) -> None:
+def plan_everywhere(agent: Agent) -> None:
     """Let it keep what a plan keeps of a place, of all places, and look up a sight."""
     places, cache = np.arange(len(agent.map.places)), LocalCache(agent.map, agent.settings.look_ahead)
     for part in np.array_split(places, max(1, len(places) // 1000)):

@@ -11,7 +11,7 @@ it is weighed against the map that there is, so that what was learned early is g
 from __future__ import annotations
 
 from .hypothesis import Hypothesis
-from .rates import ELSEWHERE, MOVED, RELINKED, UNDONE
+from .rates import ASTRAY, ELSEWHERE, FAILS, MOVED, RELINKED, UNDONE
 
 FIRST, LATER = 32, 256
 """Steps after which it is tried first; and steps between two tries at most."""
@@ -20,13 +20,17 @@ SHARES = (0.5, 0.25, 0.125)
 """Shares of the steps that are left out, in turn."""
 
 ODD = 0.5
-"""Oddities from which on a map is doubted."""
+"""How many oddities make a map doubtful."""
 
 
-def is_odd(h: Hypothesis) -> bool:
-    """Whether ways lead off the chart or not back, or were thought to lead elsewhere, or the agent was moved."""
-    yes = h.counts.yes
-    return yes[ELSEWHERE] + yes[MOVED] + yes[RELINKED] + h.counts.no[UNDONE] > ODD
+def is_odd(h: Hypothesis, tries: int) -> bool:
+    """Whether ways lead off the chart or not back, or were thought to lead elsewhere, or the agent was moved.
+
+    Moves that fail or go astray are common, and maps are mostly right then: these count every other time.
+    """
+    counts = h.counts
+    odd = counts.yes[ELSEWHERE] + counts.yes[MOVED] + counts.yes[RELINKED] + counts.no[UNDONE]
+    return odd + (tries % 2) * (counts.of(FAILS)[0] + counts.of(ASTRAY)[0]) > ODD
 
 
 def tries_until(time: int, tries: int) -> int:

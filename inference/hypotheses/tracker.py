@@ -246,7 +246,7 @@ class Tracker:
     def _afresh(self, found: list[Hypothesis]) -> list[Hypothesis]:
         """Those that a tracker finds which is told the later steps alone, where they explain all steps better."""
         tries = self._tries
-        if self._clear or self._partly or not is_odd(found[0]) or tries_until(self.time, tries) == tries:
+        if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time, tries) == tries:
             return found
         history, first = self.history, first_told(self.history.start, self.time, tries)
         self._tries = tries_until(self.time, tries)
