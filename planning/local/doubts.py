@@ -1,7 +1,5 @@
 """Ways that are only thought to lead where they do, kept from plan to plan until something changes at their place."""
 
-from __future__ import annotations
-
 from .view import MapView
 
 

@@ -1,7 +1,5 @@
 """The likely shortest ways to places never entered, and which of them are worth taking."""
 
-from __future__ import annotations
-
 import heapq
 from dataclasses import dataclass
 
