@@ -247,10 +247,10 @@ class Tracker:
     def _afresh(self, found: list[Hypothesis]) -> list[Hypothesis]:
         """Those that a tracker finds which is told the later steps alone, where they explain all steps better."""
         tries = self._tries
-        if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time, tries) == tries:
+        if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time) <= tries:
             return found
         history, first = self.history, first_told(self.history.start, self.time, tries)
-        self._tries = tries_until(self.time, tries)
+        self._tries = tries_until(self.time)
         if not is_known(found[0], history.start):
             return found
         other = Tracker(self.scheme, replace(self.options, most=max(self.options.most // 2, 1)))
