@@ -1,7 +1,5 @@
 """The loop that joins model, inference and planning: perceive, plan, act."""
 
-from __future__ import annotations
-
 from .agent import Agent
 from .following import Followed, follow
 from .pomdp import Pomdp

@@ -1,7 +1,5 @@
 """What must hold of the state of an agent, whoever wrote the file that it comes from."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
@@ -13,16 +11,11 @@ from ..inference import Belief, Hypothesis
 from ..model import CogmapError, CognitiveMap, Percept, Slice, window_graph
 from .state import Choice, GivenPreferences, State
 
-NEARLY = 1e-6
-"""How far probabilities may be from adding up to one."""
+NEARLY = 1e-6  # how far probabilities may be from adding up to one
 
 
 def check_state(state: State, map_: CognitiveMap) -> None:
-    """Refuse a state that no agent with this map can be in.
-
-    Raises:
-        CogmapError: it is one.
-    """
+    """Refuse a state that no agent with this map can be in. Raises CogmapError: it is one."""
     actions = len(map_.motions)
     if not (state.steps >= 0 and (state.belief is not None) == (state.steps > 0) == bool(state.window)):
         raise CogmapError("its steps do not go with what it believes")

@@ -1,7 +1,5 @@
 """What sensors were expected to show in a place, before the last step taught it."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable
 
 from ..model import CognitiveMap, ParameterUpdate, Sensor, Sight, SparseDirichlet, Ways

@@ -1,7 +1,5 @@
 """An agent as a file, and back."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from os import PathLike
@@ -17,8 +15,7 @@ from .parts import MissingPart, made_of
 from .settings import Settings
 from .wholeness import Whole
 
-KEEP = 10_000
-"""Steps of which the trace and the log of growth keep everything, unless told otherwise."""
+KEEP = 10_000  # steps of which the trace and the log of growth keep everything, unless told otherwise
 
 
 class Filed(Whole):

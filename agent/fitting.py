@@ -1,7 +1,5 @@
 """Whether a value from a file is what an annotation says."""
 
-from __future__ import annotations
-
 import math
 import types
 from collections.abc import Callable, Hashable, Mapping, Sequence

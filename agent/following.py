@@ -1,7 +1,5 @@
 """Along a walk that somebody else made: what the agent would believe, consider and do at each step of it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -16,20 +14,13 @@ from ..planning import Plan
 
 @dataclass(frozen=True, slots=True)
 class Followed:
-    """One step of a walk that was followed.
+    """One step of a walk that was followed."""
 
-    Attributes:
-        step: the time step, from 0.
-        belief: where the agent believes to be.
-        plan: the policies that it considers, what each is worth, and P(policy).
-        ways: the actions whose way was open, ascending; `stay` is none.
-        probability: `[K]` P(action): the policy posterior summed by first action, over the open ways; zero of others.
-    """
-
-    step: int
-    belief: Belief
-    plan: Plan
-    ways: tuple[int, ...]
+    step: int  # the time step, from 0
+    belief: Belief  # where the agent believes to be
+    plan: Plan  # the policies that it considers, what each is worth, and P(policy)
+    ways: tuple[int, ...]  # the actions whose way was open, ascending; `stay` is none
+    # `[K]` P(action): the policy posterior summed by first action, over the open ways; zero of others
     probability: NDArray[np.float64]
 
 

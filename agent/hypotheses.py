@@ -1,7 +1,5 @@
 """What an agent holds possible of its map, to be read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import exp
@@ -12,19 +10,12 @@ from .mirror import Mirror
 
 @dataclass(frozen=True, slots=True)
 class MapHypothesis:
-    """One hypothesis about the map, and where the agent is in it.
+    """One hypothesis about the map, and where the agent is in it."""
 
-    Attributes:
-        probability: its posterior probability.
-        places: how many places were visited, if it is so.
-        place: the place of the agent's map where the agent is; None for one that its map does not have.
-        differences: how it differs from the one that the map says, in words; none if it is that one.
-    """
-
-    probability: float
-    places: int
-    place: int | None
-    differences: tuple[str, ...]
+    probability: float  # its posterior probability
+    places: int  # how many places were visited, if it is so
+    place: int | None  # the place of the agent's map where the agent is; None for one that its map does not have
+    differences: tuple[str, ...]  # how it differs from the one that the map says, in words; none if it is that one
 
 
 def compared(followed: Hypothesis, hypotheses: Sequence[Hypothesis], mirror: Mirror) -> tuple[MapHypothesis, ...]:

@@ -1,15 +1,12 @@
 """What a map that is known says to the hypotheses: files of earlier versions, and maps that are given."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from ..inference import NOWHERE, Place, Share, Way
 from ..model import BLOCKED, OPEN, CognitiveMap
 from .sensing import Sensing
 
-MOST = 8.0
-"""Readings of a sight that a map is worth at most; counts that were learned at other rates would be more."""
+MOST = 8.0  # readings of a sight that a map is worth at most; counts that were learned at other rates would be more
 
 
 def records_of(map_: CognitiveMap, sensing: Sensing) -> tuple[dict[int, Place], dict[int, int]]:

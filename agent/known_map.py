@@ -15,8 +15,7 @@ from ..model import CogmapError, Motions, MotionSpec, parse_json, read_file, unp
 
 Facts = Mapping[str, Any]
 
-LARGEST_YAML = 16 * 2**20
-"""Bytes of YAML that are read, which takes long."""
+LARGEST_YAML = 16 * 2**20  # bytes of YAML that are read, which takes long
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,23 +32,16 @@ class GivenWay:
 class KnownMap:
     """A graph of places, before anybody has been there.
 
-    Attributes:
-        where: what errors call it.
-        attributes: of the graph.
-        nodes: attributes by id, in order.
-        ways: all that are open.
-        contexts: those that the world may be in; none where there is but one.
-
     A graph whose attribute `contexts` lists some is taken once for each: a node may say in `contexts` what differs,
     such as `{"left": {"sight": "reward"}}`; an edge may say `only`, the contexts in which it is open, and `then`, the
     context that it leads to (the way that takes a key).
     """
 
-    where: str
-    attributes: Facts
-    nodes: Mapping[Hashable, Facts]
-    ways: tuple[GivenWay, ...]
-    contexts: tuple[Hashable, ...] = ()
+    where: str  # what errors call it
+    attributes: Facts  # of the graph
+    nodes: Mapping[Hashable, Facts]  # attributes by id, in order
+    ways: tuple[GivenWay, ...]  # all that are open
+    contexts: tuple[Hashable, ...] = ()  # those that the world may be in; none where there is but one
 
     @classmethod
     def of(cls, source: Any) -> KnownMap:

@@ -1,7 +1,5 @@
 """Teaches the map what the agent is certain of, and lets it grow."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from ..inference import Belief

@@ -1,7 +1,5 @@
 """The arrays of an npz file of anybody: read within limits, whole, and only those that are asked for."""
 
-from __future__ import annotations
-
 import os
 import re
 import struct
@@ -13,15 +11,11 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-LARGEST = 4 * 2**30
-"""Bytes of all arrays together."""
-
-RATIO = 100
-"""How many times larger than the file they may be, besides the first `FREE` bytes."""
+LARGEST = 4 * 2**30  # bytes of all arrays together
+RATIO = 100  # how many times larger than the file they may be, besides the first `FREE` bytes
 
 FREE = 2**20
-DIRECTORY = 32 * 2**20
-"""Bytes of the list of members."""
+DIRECTORY = 32 * 2**20  # bytes of the list of members
 
 _MAGIC = re.compile(rb"\x93NUMPY(?:\x01\x00(..)|[\x02\x03]\x00(....))", re.S)
 _HEADER = re.compile(

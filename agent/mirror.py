@@ -257,8 +257,8 @@ class Mirror:
         """Whether an open way leads to an imagined place from another one than `place`."""
         map_ = self._map
         for action, neighbour in map_.pose.neighbours(imagined):
-            back = map_.motions.inverse[action]
-            if neighbour != place and map_.visited[neighbour] and map_.transition(imagined, neighbour, back) > 0.5:
+            back = np.array([map_.row(neighbour, map_.motions.inverse[action])])
+            if neighbour != place and map_.visited[neighbour] and map_.B_s.probability(imagined, back)[0] > 0.5:
                 return True
         return False
 

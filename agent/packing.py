@@ -1,7 +1,5 @@
 """Records as plain JSON values and arrays, and back; no pickle."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
@@ -24,8 +22,7 @@ RECORDS: dict[str, type[Any]] = {
 """What is taken apart field by field, by name."""
 
 
-_OF_THE_STEP = ("likelihoods", "pruned", "ahead")
-"""Of a belief, what only the step that it is of needs."""
+_OF_THE_STEP = ("likelihoods", "pruned", "ahead")  # of a belief, what only the step that it is of needs
 
 
 def pack(value: Any, arrays: Arrays, path: str) -> Any:

@@ -1,7 +1,5 @@
 """The parts of an agent, described so that a file can name them, and made again."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any

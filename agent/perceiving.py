@@ -1,14 +1,15 @@
 """Observations, checked before anything believes them."""
 
-from __future__ import annotations
-
+import sys
 from collections.abc import Callable, Mapping
 from math import isfinite
 from typing import Any
 
 import numpy as np
 
-from ..model import OUTCOMES, UNSEEN, CogmapError, GenerativeModel, Motions, Outcome, Percept
+from ..model import OUTCOMES, UNSEEN, CogmapError, GenerativeModel, Motions, Outcome, Percept, is_number
+
+_MOST = sys.float_info.max
 
 
 def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str, Any]:
@@ -72,6 +73,7 @@ def percept_of(
         moved=values.get("moved", False),
         cost=values.get("cost"),
         costs=values.get("costs"),
+        lengths=values.get("lengths"),
     )
 
 
@@ -91,12 +93,11 @@ def _keys(model: GenerativeModel) -> str:
 
 
 def _action(taken: Any, model: GenerativeModel) -> int:
-    names = model.motions.names
-    if isinstance(taken, str) and taken in names:
-        return names.index(taken)
-    if isinstance(taken, int | np.integer) and not isinstance(taken, bool) and 0 <= taken < len(names):
-        return int(taken)
-    raise CogmapError(f"observation: 'taken' is {taken!r}; give an action by name or index: {', '.join(names)}")
+    index = model.motions.index(taken)
+    if index is None:
+        names = ", ".join(model.motions.names)
+        raise CogmapError(f"observation: 'taken' is {taken!r}; give an action by name or index: {names}")
+    return index
 
 
 def _outcome(outcome: Any, model: GenerativeModel) -> Outcome:
@@ -126,7 +127,7 @@ def _displacement(measured: Any, model: GenerativeModel) -> tuple[float, ...]:
 
 def _number(name: str, least: float) -> Callable[[Any, GenerativeModel], float]:
     def number(value: Any, model: GenerativeModel) -> float:
-        if not (_is_real(value) and value >= least):
+        if not is_number(value, least, _MOST):
             bound = "" if least < 0.0 else f" of {least:g} or more"
             raise CogmapError(f"observation: {name!r} is {_short(value)}; give a finite number{bound}")
         return float(value)
@@ -134,40 +135,39 @@ def _number(name: str, least: float) -> Callable[[Any, GenerativeModel], float]:
     return number
 
 
-def _is_real(value: Any) -> bool:
-    """Whether a value is a finite number, and no truth value."""
-    real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    return real and value is not np.ma.masked and isfinite(value)
-
-
-def _costs(value: Any, model: GenerativeModel) -> tuple[float | None, ...]:
-    names = model.motions.names
-    if isinstance(value, Mapping):
-        if unknown := [name for name in value if name not in names]:
-            raise CogmapError(
-                f"observation: 'costs' has {_short(unknown[0])}; give costs of actions by name: {', '.join(names)}"
-            )
-        value = [value.get(name) for name in names]
-    given = list(value) if isinstance(value, list | tuple | np.ndarray) else []
-    costs = [None if each is None or each is np.ma.masked else each for each in given]
-    if len(costs) != len(names) or not all(cost is None or (_is_real(cost) and cost >= 0.0) for cost in costs):
-        raise CogmapError(
-            f"observation: 'costs' is {_short(value)}; give each action a finite number of 0 or more, or None"
-        )
-    return tuple(None if cost is None else float(cost) for cost in costs)
-
-
 def _short(value: Any) -> str:
     return " ".join(repr(value).split())
+
+
+def _each(what: str) -> Callable[[Any, GenerativeModel], tuple[float | None, ...]]:
+    def numbers(value: Any, model: GenerativeModel) -> tuple[float | None, ...]:
+        names = model.motions.names
+        if isinstance(value, Mapping):
+            if unknown := [name for name in value if name not in names]:
+                known = ", ".join(names)
+                raise CogmapError(
+                    f"observation: {what!r} has {_short(unknown[0])}; give {what} of actions by name: {known}"
+                )
+            value = [value.get(name) for name in names]
+        given = list(value) if isinstance(value, list | tuple | np.ndarray) else []
+        found = [None if each is None or each is np.ma.masked else each for each in given]
+        if len(found) != len(names) or not all(each is None or is_number(each, 0.0, _MOST) for each in found):
+            raise CogmapError(
+                f"observation: {what!r} is {_short(value)}; give each action a finite number of 0 or more, or None"
+            )
+        return tuple(None if each is None else float(each) for each in found)
+
+    return numbers
 
 
 _SAID: dict[str, Callable[[Any, GenerativeModel], Any]] = {
     "taken": _action,
     "outcome": _outcome,
     "displacement": _displacement,
-    "turn": _number("turn", -np.inf),
+    "turn": _number("turn", -_MOST),
     "moved": _moved,
     "cost": _number("cost", 0.0),
-    "costs": _costs,
+    "costs": _each("costs"),
+    "lengths": _each("lengths"),
 }
 """What an observation may say of the move besides, and what reads it."""

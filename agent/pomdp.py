@@ -8,47 +8,35 @@ from string import ascii_lowercase
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError, FactorGraph, Motions, NoPose, Sight
+from ..model import CogmapError, FactorGraph, Floats, Motions, NoPose, Sight
 from .agent import Agent
 
 if TYPE_CHECKING:
     import networkx as nx
 
-Floats = NDArray[np.float64]
 
 ELSEWHERE = "elsewhere"
 """The state of an agent's matrices that is no place of its map."""
 
-NEARLY = 1e-6
-"""How far a column may be from adding up to one."""
+NEARLY = 1e-6  # how far a column may be from adding up to one
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pomdp:
     """A partially observable Markov decision process of one state, with any number of observations.
 
-    Attributes:
-        A: of each observation `[O, S]`, P(o | s); columns sum to one.
-        B: `[S, S, K]`, P(s' | s, a), next state first; columns sum to one.
-        C: of each observation `[O]`, log preferences in nats.
-        D: `[S]`, where it is at first.
-        names: of the observations, such as `sight`.
-        labels: of each observation, what its outcomes are called.
-        actions: what the actions are called.
-
     Raises:
         CogmapError: shapes that do not fit, numbers that are no probabilities, or names that repeat.
     """
 
-    A: tuple[Floats, ...]
-    B: Floats
-    C: tuple[Floats, ...]
-    D: Floats
-    names: tuple[str, ...]
-    labels: tuple[tuple[Hashable, ...], ...]
-    actions: tuple[str, ...]
+    A: tuple[Floats, ...]  # of each observation `[O, S]`, P(o | s); columns sum to one
+    B: Floats  # `[S, S, K]`, P(s' | s, a), next state first; columns sum to one
+    C: tuple[Floats, ...]  # of each observation `[O]`, log preferences in nats
+    D: Floats  # `[S]`, where it is at first
+    names: tuple[str, ...]  # of the observations, such as `sight`
+    labels: tuple[tuple[Hashable, ...], ...]  # of each observation, what its outcomes are called
+    actions: tuple[str, ...]  # what the actions are called
 
     def __post_init__(self) -> None:
         states = len(self.D)

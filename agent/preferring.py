@@ -1,7 +1,5 @@
 """What an agent is told to hope for, checked, and as plans weigh it."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from typing import Any, cast
 
@@ -12,8 +10,7 @@ from ..planning import Preferences
 from .settings import Settings
 from .state import GivenPreferences
 
-LARGEST = 1e9
-"""Of log preferences, in nats."""
+LARGEST = 1e9  # of log preferences, in nats
 
 
 def given_preferences(sights: object, places: object, sensors: object, map_: CognitiveMap) -> GivenPreferences:

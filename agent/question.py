@@ -1,7 +1,5 @@
 """The open question about the map as a variable of the window's graph."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -45,6 +45,9 @@ DECIDED = 0.8
 SURER = 0.98
 """Share of what hypotheses hold of a place from which on the filter need not be overruled."""
 
+SLIPPERY = 0.05
+"""Share of actions that go astray from which on the map says where they lead by what else may be carried out."""
+
 RULED_OUT, UNSEEN = 0.01, 0.3
 """Odds beside the most probable hypothesis down to which the one that is followed may be followed on; and where no way
 was looked at: the filter, which names the one to follow, cannot tell there a bump from a place that looks the same."""
@@ -70,11 +73,24 @@ class Recognition:
         self.followed: Hypothesis | None = None
         self.moved = False
         self.looked: tuple[bool | float | None, ...] | None = None
+        map_.transitions.carried_out = self.carried_out
 
     @property
     def rates(self) -> list[RateOf]:
         """What is learned of how this world is, as the hypothesis that is followed has it."""
         return [] if self.followed is None else rates_of(self.followed)
+
+    def carried_out(self, action: int) -> NDArray[np.float64] | None:
+        """`[K]` P(action carried out | `action` is given); None where actions hardly ever go astray."""
+        astray = 0.0 if self.followed is None else self._now.chances.astray
+        if astray < SLIPPERY:
+            return None
+        ways, motions, stays = self.sensing.ways, self._map.motions, NOWHERE
+        given = ways.get(action, stays)
+        slips = [astray * self._now.slip(given, ways.get(taken, stays)) for taken in range(len(motions))]
+        slips[action] = 0.0
+        slips[action] = 1.0 - sum(slips)
+        return np.array(slips)
 
     @property
     def _now(self) -> Hypothesis:

@@ -1,7 +1,5 @@
 """Files of schema 2, made into the present one. What was learned before cannot be taken back any more."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -16,8 +14,7 @@ from .packing import Arrays, pack
 from .state import Choice, GivenPreferences, State
 
 _COLUMNS = {"position_of": "position_of.values", "place_at": "place_at.values", "visits": "visits.order"}
-_PARTS = ("places", "growth", "policies", "beam", "choice")
-"""Names among the settings that are parts now."""
+_PARTS = ("places", "growth", "policies", "beam", "choice")  # names among the settings that are parts now
 
 _SCALARS = ("evidence", "moved", "dropped", "examined", "doubt")
 

@@ -1,7 +1,5 @@
 """Files of schema 3: they have rivals of the belief and steps that could be taken back, but no hypotheses."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -13,11 +11,7 @@ Arrays = Mapping[str, NDArray[Any]]
 
 
 def from_schema_3(header: Mapping[str, Any], arrays: Arrays) -> tuple[dict[str, Any], Arrays]:
-    """Header and arrays as they would be written now.
-
-    Raises:
-        KeyError, ValueError: the file is damaged.
-    """
+    """Header and arrays as they would be written now. Raises KeyError, ValueError: the file is damaged."""
     state = {name: part for name, part in header["state"].items() if name not in _GONE}
     for name in arrays:
         if name.startswith(("state.rivals.", "state.recent.")):

@@ -1,7 +1,5 @@
 """What one step brings, in the words of the hypotheses about the map."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import log
 
@@ -10,8 +8,7 @@ import numpy as np
 from ..inference import Sensed, WayScheme
 from ..model import GenerativeModel, Percept
 
-UNSURE = 0.25
-"""P(the move failed) at least, where the body is not sure of it."""
+UNSURE = 0.25  # P(the move failed) at least, where the body is not sure of it
 
 
 class Sensing:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any, Literal, cast
 
-import numpy as np
-
 from ..inference import ENGINES, FilterOptions, TrackerOptions
-from ..model import PAPER_RATES, CogmapError, Priors, Rates, is_number
+from ..model import PAPER_RATES, CogmapError, Priors, Rates, is_number, is_whole
 from ..planning import MAX_LOOK_AHEAD
 
 
@@ -64,11 +62,8 @@ class Settings:
                 continue
             _check(isinstance(getattr(self, name), kind), name, getattr(self, name), f"use a {kind.__name__}")
         for name, most in _MOST.items():
-            value = getattr(self, name)
-            whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
-            _check(
-                whole and bool(1 <= value <= most), name, value, f"use a whole number of 1 or more, at most {most:,}"
-            )
+            value, remedy = getattr(self, name), f"use a whole number of 1 or more, at most {most:,}"
+            _check(is_whole(value, 1, most), name, value, remedy)
         for names, (least, most) in _RANGES.items():
             for name in names.split():
                 value = getattr(self, name)
@@ -98,11 +93,7 @@ class Settings:
 
     @classmethod
     def from_dict(cls, values: dict[str, Any]) -> Settings:
-        """The settings that `to_dict` gave.
-
-        Raises:
-            CogmapError: a name is unknown.
-        """
+        """The settings that `to_dict` gave. Raises CogmapError: a name is unknown."""
         given = _known(cls, values)
         for name, kind in _NESTED.items():
             if given.get(name) is not None:

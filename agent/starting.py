@@ -1,7 +1,5 @@
 """A map that is known beforehand, as records of hypotheses."""
 
-from __future__ import annotations
-
 from collections import Counter, deque
 from collections.abc import Hashable, Mapping
 from typing import Any, cast
@@ -11,8 +9,7 @@ from ..model import CogmapError, GenerativeModel, Position
 from .known_map import GivenWay, KnownMap, position_of
 from .sensing import Sensing
 
-SURE = 4.0
-"""Readings that what the graph says of a sight or a way is worth."""
+SURE = 4.0  # readings that what the graph says of a sight or a way is worth
 
 
 def records_of_graph(known: KnownMap, model: GenerativeModel, sensing: Sensing) -> dict[int, Place]:

@@ -1,7 +1,5 @@
 """All that the next steps of an agent depend on besides its map."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field, replace
@@ -17,16 +15,11 @@ from ..planning import Plan
 
 @dataclass(frozen=True, slots=True)
 class GivenPreferences:
-    """Log preferences over all others, in nats (before `goal_weight`); none explores.
+    """Log preferences over all others, in nats (before `goal_weight`); none explores."""
 
-    Attributes:
-        sights: by label.
-        places: by number of the place in the map.
-        sensors: by name of a sensor and label, of the others than the first.
-    """
-
-    sights: Mapping[Hashable, float] = field(default_factory=dict[Hashable, float])
-    places: Mapping[int, float] = field(default_factory=dict[int, float])
+    sights: Mapping[Hashable, float] = field(default_factory=dict[Hashable, float])  # by label
+    places: Mapping[int, float] = field(default_factory=dict[int, float])  # by number of the place in the map
+    # by name of a sensor and label, of the others than the first
     sensors: Mapping[str, Mapping[Hashable, float]] = field(default_factory=dict[str, Mapping[Hashable, float]])
 
     def __bool__(self) -> bool:
@@ -35,22 +28,13 @@ class GivenPreferences:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """What cannot be worked out again of a choice: the preferences then in force, and how ties and draws fell.
+    """What cannot be worked out again of a choice: the preferences then in force, and how ties and draws fell."""
 
-    Attributes:
-        preferences: when it was made.
-        policy: the action indices of the policy that was chosen.
-    """
-
-    preferences: GivenPreferences
-    policy: tuple[int, ...]
+    preferences: GivenPreferences  # when it was made
+    policy: tuple[int, ...]  # the action indices of the policy that was chosen
 
     def of(self, plan: Plan) -> Plan:
-        """The plan with this choice.
-
-        Raises:
-            CogmapError: the policy is not one of its.
-        """
+        """The plan with this choice. Raises CogmapError: the policy is not one of its."""
         if plan.policies.shape[1] == len(self.policy):
             found = np.flatnonzero((plan.policies == self.policy).all(axis=1))
             if len(found):
@@ -60,38 +44,25 @@ class Choice:
 
 @dataclass(slots=True)
 class State:
-    """One record of where an agent is in its life.
+    """One record of where an agent is in its life."""
 
-    Attributes:
-        window: the last steps as slices; as many as its length allows.
-        steps: observations taken in so far.
-        acted: whether it has answered the last of them.
-        action: what it answered; None before the first.
-        open: for each action whether its way was open at the last step, as far as is known; None before the first.
-        belief: after the last observation.
-        preferences: what it prefers now.
-        choice: its last choice.
-        percept: what the last step brought; None before the first, and where an early version wrote the file.
-        begun: where the log of changes was when the present step began; 0 in a file, which has no log.
-        revised: whether it changed its mind at the present step: the map, or where it is in it.
-        told: it was told that it was moved, since the last step.
-        expected: by sensor, what was expected of it at the last step; None where nobody has asked yet.
-        costs: by action, how often a move cost something, and how much in all.
-    """
-
-    window: deque[Slice]
-    steps: int = 0
-    acted: bool = True
-    action: int | None = None
+    window: deque[Slice]  # the last steps as slices; as many as its length allows
+    steps: int = 0  # observations taken in so far
+    acted: bool = True  # whether it has answered the last of them
+    action: int | None = None  # what it answered; None before the first
+    # for each action whether its way was open at the last step, as far as is known; None before the first
     open: tuple[bool, ...] | None = None
-    belief: Belief | None = None
-    preferences: GivenPreferences = field(default_factory=GivenPreferences)
-    choice: Choice | None = None
+    belief: Belief | None = None  # after the last observation
+    preferences: GivenPreferences = field(default_factory=GivenPreferences)  # what it prefers now
+    choice: Choice | None = None  # its last choice
+    # what the last step brought; None before the first, and where an early version wrote the file
     percept: Percept | None = None
-    begun: int = 0
-    revised: bool = False
-    told: bool = False
+    begun: int = 0  # where the log of changes was when the present step began; 0 in a file, which has no log
+    revised: bool = False  # whether it changed its mind at the present step: the map, or where it is in it
+    told: bool = False  # it was told that it was moved, since the last step
+    # by sensor, what was expected of it at the last step; None where nobody has asked yet
     expected: Mapping[str, Any] | None = None
+    # by action, how often a move cost something, and how much in all
     costs: Mapping[int, tuple[int, float]] = field(default_factory=dict[int, tuple[int, float]])
 
     def spend(self, percept: Percept) -> None:

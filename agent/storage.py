@@ -1,7 +1,5 @@
 """Agents in npz files: arrays, and a JSON header with a schema version; no pickle."""
 
-from __future__ import annotations
-
 import json
 import struct
 import zipfile
@@ -22,13 +20,11 @@ from .parts import MissingPart
 from .schema_2 import from_schema_2
 from .schema_3 import from_schema_3
 
-SCHEMA, OLDEST = 4, 2
-"""Version of the layout of the file, and the oldest that can be read."""
+SCHEMA, OLDEST = 4, 2  # version of the layout of the file, and the oldest that can be read
 
 FORMAT = "cogmap agent"
 
-_UPDATES = {2: from_schema_2, 3: from_schema_3}
-"""What reads earlier versions as if they were written now."""
+_UPDATES = {2: from_schema_2, 3: from_schema_3}  # what reads earlier versions as if they were written now
 
 _BROKEN = (OSError, EOFError, RuntimeError, struct.error, zipfile.BadZipFile, zlib.error)
 """What reading raises where a file is none; deep nesting is a `RuntimeError` too."""

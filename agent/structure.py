@@ -1,7 +1,5 @@
 """Hypotheses about the map as a planner asks them: what they would have the agent sense on its way."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from heapq import nlargest
 from math import exp, sqrt
@@ -11,14 +9,12 @@ from ..inference import NOWHERE, Hypothesis, open_probability
 LEAST = 1e-5
 """Hypotheses less probable than this are not worth a way; they are asked where nothing else is to be done."""
 
-MISREAD = 1e-3
-"""Probability that a door is not as it was read from which on it is worth another look."""
+MISREAD = 1e-3  # probability that a door is not as it was read from which on it is worth another look
 
 DOORS = 7
 """Doors that are asked for at a time, at most."""
 
-NEAREST = 200
-"""Places around the agent whose doors are asked for, at most."""
+NEAREST = 200  # places around the agent whose doors are asked for, at most
 
 Door = frozenset[tuple[int, int]]
 """A door by the (place, way) of its sides."""

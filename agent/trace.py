@@ -1,7 +1,5 @@
 """What happened at every step, light enough to keep."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 

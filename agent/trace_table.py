@@ -1,7 +1,5 @@
 """The trace of an agent as a table, a row a step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ..model import CogmapError, LabelledTable

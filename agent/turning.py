@@ -1,7 +1,5 @@
 """A frame that may turn: the agent infers by how many quarter turns, together with the place."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, Self, cast
 
@@ -16,8 +14,7 @@ from .perceiving import checked
 
 SURPRISE = 3.0
 """Nats by which another place or another turn must explain a percept better before the frame is in question."""
-SURE = 0.9
-"""Belief in one turn from which on it is taken as so."""
+SURE = 0.9  # belief in one turn from which on it is taken as so
 _FITS = -6.0  # log-likelihood below which nothing that is known fits: this is somewhere new
 _STRAY = 1e-3  # share of the belief that is spread over everything, each step of a search
 

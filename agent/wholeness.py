@@ -1,7 +1,5 @@
 """Steps that are taken whole or not at all."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,8 +15,7 @@ from .wiring import Wired
 
 T = TypeVar("T")
 
-IN_STEP = "in the middle of a step"
-"""What is said of an agent while it takes one."""
+IN_STEP = "in the middle of a step"  # what is said of an agent while it takes one
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,6 @@
 """What an agent is wired of, and what it says of itself."""
 
-from __future__ import annotations
-
+import sys
 from collections import deque
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
@@ -21,6 +20,7 @@ from ..model import (
     PredictedGrowth,
     Sensor,
     Slice,
+    is_whole,
     safe,
     updates,
     window_graph,
@@ -107,8 +107,7 @@ class Wired:
 
     @keep.setter
     def keep(self, steps: int | None) -> None:
-        whole = isinstance(steps, int | np.integer) and not isinstance(steps, bool)
-        if steps is not None and not (whole and steps > 0):
+        if steps is not None and not is_whole(steps, 1, sys.maxsize):
             raise CogmapError(f"agent: keep is {steps!r}; give a positive whole number of steps, or None")
         self._keep = self.map.growth.keep = steps
 

@@ -1,7 +1,5 @@
 """Whom the agent is compared with: clone-structured graphs, nearest-frontier search, habit alone, random walk."""
 
-from __future__ import annotations
-
 from .chart_frontier import ChartFrontier
 from .cscg import CscgAgent, CscgSettings
 from .cue_optimum import CueOptimum

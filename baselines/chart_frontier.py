@@ -1,7 +1,5 @@
 """Nearest-frontier search in a world whose ways belong to the place, by its chart."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Who plays the T maze with a cue as well as can be."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What baselines that reckon where they are have in common."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any

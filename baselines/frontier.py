@@ -1,7 +1,5 @@
 """Nearest-frontier search (Yamauchi 1997, A frontier-based approach for autonomous exploration)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from .explorer import Explorer

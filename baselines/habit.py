@@ -1,7 +1,5 @@
 """Habit alone: tabular Q-learning, an agent without a map."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from typing import Any
 

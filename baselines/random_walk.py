@@ -1,7 +1,5 @@
 """The random walk."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from .explorer import Explorer

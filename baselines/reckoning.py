@@ -17,16 +17,12 @@ MOST_TRACKS = 4
 
 @dataclass(slots=True)
 class Track:
-    """One account of the walk so far.
+    """One account of the walk so far."""
 
-    Attributes:
-        place: where the agent is, relative to its start.
-        sights: what was seen at each place entered, in the order of first entry.
-        edges: where each action leads from each place entered, as last sensed; a wall leads back.
-    """
-
-    place: Place
+    place: Place  # where the agent is, relative to its start
+    # what was seen at each place entered, in the order of first entry
     sights: dict[Place, Hashable] = field(default_factory=dict[Place, Hashable])
+    # where each action leads from each place entered, as last sensed; a wall leads back
     edges: dict[tuple[Place, int], Place] = field(default_factory=dict[tuple[Place, int], Place])
 
     def at(self, place: Place) -> Track:

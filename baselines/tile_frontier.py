@@ -1,7 +1,5 @@
 """Nearest-frontier search over the tiles of MiniGrid: one flat map, no rooms."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -37,11 +35,7 @@ class TileFrontier:
         self._tiles: dict[mg.Tile, tuple[int, int]] = {(0, 0): (_EMPTY, 0)}  # kind and state
 
     def step(self, observation: Mapping[str, Any]) -> int:
-        """The next low-level action.
-
-        Raises:
-            WorldError: the observation has no symbolic view.
-        """
+        """The next low-level action. Raises WorldError: the observation has no symbolic view."""
         image = np.asarray(observation.get("image"))
         if image.shape != (7, 7, 3):
             raise WorldError(f"tile frontier: an image of shape {image.shape} is no symbolic view; give (7, 7, 3)")

@@ -1,7 +1,5 @@
 """Recorded walks: followed, explained by models of choice, fitted and compared."""
 
-from __future__ import annotations
-
 from .choices import RELATIONS, Choices, Compass, Fork, choices_of, gathered
 from .comparing import ALL, How, preferred, result_of, run_task, tasks_of
 from .crossing import FOLDS, LEVELS, GroupFit, fit_group, folds_of, held_out

@@ -1,19 +1,16 @@
 """The choices in a walk, as arrays: what was open, what was taken, and what went before."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model import Floats, Ints
 from .ground import LEAST_WAYS, Ground, Way
 from .prospects import Prospects
 from .routes import Route
 
-Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 FORWARD, RIGHT, BACK, LEFT = range(4)
@@ -23,35 +20,20 @@ RELATIONS = ("forward", "right", "back", "left")
 
 @dataclass(frozen=True, eq=False)
 class Choices:
-    """`C` choices of one individual among `K` ways at most, those of each by the number of the place they lead to.
+    """`C` choices of one individual among `K` ways at most, those of each by the number of the place they lead to."""
 
-    Attributes:
-        individual: who chose.
-        places: `[T]` the whole walk, by number of place.
-        step: `[C]` where in it each choice was made.
-        bout: `[C]` in which bout.
-        target: `[C, K]` the place that each way leads to; -1 where there is none.
-        taken: `[C]` which way was taken.
-        relation: `[C, K]` how each way lies to the last move; see `RELATIONS`.
-        before: `[C, 2]` what the last move and the one before it were, to theirs.
-        homeward: `[C, K]` whether the way leads nearer to home.
-        far: `[C]` how far home is, as a share of the farthest place.
-        end: `[C, K]` whether the place that it leads to is a dead end.
-        prospects: what the agent expects beyond each way; None where no agent followed.
-    """
-
-    individual: str
-    places: Ints
-    step: Ints
-    bout: Ints
-    target: Ints
-    taken: Ints
-    relation: Ints
-    before: Ints
-    homeward: Bools
-    far: Floats
-    end: Bools
-    prospects: Prospects | None = None
+    individual: str  # who chose
+    places: Ints  # `[T]` the whole walk, by number of place
+    step: Ints  # `[C]` where in it each choice was made
+    bout: Ints  # `[C]` in which bout
+    target: Ints  # `[C, K]` the place that each way leads to; -1 where there is none
+    taken: Ints  # `[C]` which way was taken
+    relation: Ints  # `[C, K]` how each way lies to the last move; see `RELATIONS`
+    before: Ints  # `[C, 2]` what the last move and the one before it were, to theirs
+    homeward: Bools  # `[C, K]` whether the way leads nearer to home
+    far: Floats  # `[C]` how far home is, as a share of the farthest place
+    end: Bools  # `[C, K]` whether the place that it leads to is a dead end
+    prospects: Prospects | None = None  # what the agent expects beyond each way; None where no agent followed
 
     @property
     def open(self) -> Bools:

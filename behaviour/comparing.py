@@ -1,7 +1,5 @@
 """Models compared: each fitted to all choices and to all but one fold, task by task, and what that comes to."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -16,26 +14,18 @@ from .source import Source
 Row = dict[str, Any]
 ALL = -1
 """Stands for the fit to all choices where a task names a fold."""
-CHANCE = 1.645
-"""Standard errors that chance exceeds one time in twenty."""
+CHANCE = 1.645  # standard errors that chance exceeds one time in twenty
 _SURE = 1.96  # standard errors of a 95 % interval
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class How:
-    """How models are fitted and compared.
+    """How models are fitted and compared."""
 
-    Attributes:
-        level: whether individuals are fitted around the group, alone, or as the group; one of `LEVELS`.
-        folds: of the cross-validation.
-        starts: points from which each fit to all choices sets out.
-        seed: of those that are drawn.
-    """
-
-    level: str = LEVELS[0]
-    folds: int = FOLDS
-    starts: int = STARTS
-    seed: int = 0
+    level: str = LEVELS[0]  # whether individuals are fitted around the group, alone, or as the group; one of `LEVELS`
+    folds: int = FOLDS  # of the cross-validation
+    starts: int = STARTS  # points from which each fit to all choices sets out
+    seed: int = 0  # of those that are drawn
 
 
 def tasks_of(models: Sequence[ChoiceModel], how: How) -> list[tuple[str, int]]:

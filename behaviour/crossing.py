@@ -1,19 +1,16 @@
 """Held-out likelihood: bouts that no parameter has seen, predicted from those of the group and of the individual."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Floats
 from .choices import Choices
 from .fitting import STARTS, Around, Fit, Weights, fit
 from .models import ChoiceModel, Prepared
 
-Floats = NDArray[np.float64]
 FOLDS = 5
 LEVELS = ("hierarchical", "alone", "pooled")
 """Whether each individual is fitted around the group, by itself, or has the parameters of the group."""
@@ -21,15 +18,10 @@ LEVELS = ("hierarchical", "alone", "pooled")
 
 @dataclass(frozen=True)
 class GroupFit:
-    """A model fitted to a group.
+    """A model fitted to a group."""
 
-    Attributes:
-        group: under the same parameters for all.
-        individuals: of each individual, in order.
-    """
-
-    group: Fit
-    individuals: tuple[Fit, ...]
+    group: Fit  # under the same parameters for all
+    individuals: tuple[Fit, ...]  # of each individual, in order
 
 
 def folds_of(choices: Sequence[Choices], folds: int = FOLDS) -> list[NDArray[np.int64]]:

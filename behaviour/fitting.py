@@ -1,20 +1,15 @@
 """Maximum likelihood and maximum a posteriori: parameters from choices, with standard errors."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Floats
 from .models import ChoiceModel, Prepared
 
-Floats = NDArray[np.float64]
-STARTS = 3
-"""Points from which a fit sets out, unless told otherwise."""
+STARTS = 3  # points from which a fit sets out, unless told otherwise
 _STEP = 1e-4  # of the differences that make the Hessian, as a share of the width of a parameter's typical range
 _EDGE = 1e-6  # of this width: a parameter so near to a bound is at it
 _OPTIONS = {"maxiter": 300, "maxcor": 30, "ftol": 1e-9, "gtol": 1e-6}
@@ -22,25 +17,16 @@ _OPTIONS = {"maxiter": 300, "maxcor": 30, "ftol": 1e-9, "gtol": 1e-6}
 
 @dataclass(frozen=True)
 class Fit:
-    """What a fit came to.
+    """What a fit came to."""
 
-    Attributes:
-        model: the name of the model.
-        parameters: by name.
-        standard_errors: by name, from the Hessian; None of a parameter at its bound, or where the Hessian has none.
-        log_likelihood: of all choices fitted, in nats, without the prior.
-        choices: how many.
-        bic: k log n - 2 log likelihood.
-        converged: whether the optimiser says so.
-    """
-
-    model: str
-    parameters: dict[str, float]
+    model: str  # the name of the model
+    parameters: dict[str, float]  # by name
+    # by name, from the Hessian; None of a parameter at its bound, or where the Hessian has none
     standard_errors: dict[str, float | None]
-    log_likelihood: float
-    choices: int
-    bic: float
-    converged: bool
+    log_likelihood: float  # of all choices fitted, in nats, without the prior
+    choices: int  # how many
+    bic: float  # k log n - 2 log likelihood
+    converged: bool  # whether the optimiser says so
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +42,7 @@ class Around:
         return -0.5 * float(away @ away), -away / self.spread
 
 
-Weights = Sequence[Floats]
-"""`[C]` of each individual: how much each choice counts; zero holds it out."""
+Weights = Sequence[Floats]  # `[C]` of each individual: how much each choice counts; zero holds it out
 
 
 def fit(

@@ -22,38 +22,24 @@ LEAST_WAYS = 3
 
 @dataclass(frozen=True)
 class Way:
-    """A way of a place.
+    """A way of a place."""
 
-    Attributes:
-        target: the number of the place that it leads to.
-        action: what the agent calls it.
-        bearing: its direction in degrees, clockwise.
-    """
-
-    target: int
-    action: str
-    bearing: float
+    target: int  # the number of the place that it leads to
+    action: str  # what the agent calls it
+    bearing: float  # its direction in degrees, clockwise
 
 
 @dataclass(frozen=True)
 class Ground:
-    """A world as a walk crosses it.
+    """A world as a walk crosses it."""
 
-    Attributes:
-        name: of the world.
-        places: what its places are called; elsewhere they are numbers.
-        sights: what is sensed in each place.
-        ways: of each place, those that lead elsewhere, by the number of the place that they lead to.
-        motions: the actions of an agent there, by name, as displacements on a lattice.
-        home: the place that lies between bouts; None where there is none.
-    """
-
-    name: str
-    places: tuple[Any, ...]
-    sights: tuple[Any, ...]
+    name: str  # of the world
+    places: tuple[Any, ...]  # what its places are called; elsewhere they are numbers
+    sights: tuple[Any, ...]  # what is sensed in each place
+    # of each place, those that lead elsewhere, by the number of the place that they lead to
     ways: tuple[tuple[Way, ...], ...]
-    motions: Mapping[str, Vector]
-    home: int | None = None
+    motions: Mapping[str, Vector]  # the actions of an agent there, by name, as displacements on a lattice
+    home: int | None = None  # the place that lies between bouts; None where there is none
     _spoken: Mapping[str, int] = field(default_factory=dict[str, int], repr=False)
 
     @classmethod

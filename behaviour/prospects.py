@@ -19,12 +19,9 @@ Ints = NDArray[np.int32]
 Position = tuple[float, ...]
 LOOK_AHEAD = 6
 """Steps of a policy that are judged, unless told otherwise."""
-HALF = 0.5
-"""Belief below which an agent does not know where it is."""
-OLDEST = 60_000
-"""Steps; what is older counts as that old."""
-SIZE = 100_000
-"""Numbers in the larger arrays of an evaluation; more policies are evaluated in parts."""
+HALF = 0.5  # belief below which an agent does not know where it is
+OLDEST = 60_000  # steps; what is older counts as that old
+SIZE = 100_000  # numbers in the larger arrays of an evaluation; more policies are evaluated in parts
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,20 +31,14 @@ class Prospects:
     What a step of a policy gains is the agent's own -G of that step. Where the step leads to a place that it knows,
     forgetting would add to it: in full, it would gain there what a place never seen gains. So with forgetting φ the
     step gains `gain + extra (1 - (1 - φ)^age)`.
-
-    Attributes:
-        choice: `[N]` which choice each policy belongs to, ascending.
-        way: `[N]` the way that it begins with, ascending within a choice.
-        gain: `[N, L]` nats that each step gains.
-        extra: `[N, L]` nats that forgetting could add; zero in places never entered or entered earlier in the policy.
-        age: `[N, L]` steps since the place was last entered.
     """
 
-    choice: Ints
-    way: Ints
-    gain: Floats
+    choice: Ints  # `[N]` which choice each policy belongs to, ascending
+    way: Ints  # `[N]` the way that it begins with, ascending within a choice
+    gain: Floats  # `[N, L]` nats that each step gains
+    # `[N, L]` nats that forgetting could add; zero in places never entered or entered earlier in the policy
     extra: Floats
-    age: NDArray[np.uint16]
+    age: NDArray[np.uint16]  # `[N, L]` steps since the place was last entered
 
     @classmethod
     def joined(cls, parts: Sequence[Prospects]) -> Prospects:
@@ -59,19 +50,12 @@ class Prospects:
 
 @dataclass(frozen=True, eq=False)
 class Followings:
-    """How it went along a recorded walk.
+    """How it went along a recorded walk."""
 
-    Attributes:
-        prospects: of its choices.
-        astray: steps at which the agent believed to be elsewhere than it was.
-        entered: places that it has as entered at the end.
-        nodes: places that were entered.
-    """
-
-    prospects: Prospects
-    astray: int
-    entered: int
-    nodes: int
+    prospects: Prospects  # of its choices
+    astray: int  # steps at which the agent believed to be elsewhere than it was
+    entered: int  # places that it has as entered at the end
+    nodes: int  # places that were entered
 
 
 def new_agent(ground: Ground, *, look_ahead: int = LOOK_AHEAD, seed: int = 0) -> Agent:

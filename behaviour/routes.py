@@ -8,28 +8,19 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Ints
 from .ground import Ground
 from .walks import Walk
-
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
 class Route:
-    """A walk over the places of a world, by number; home lies between its bouts.
+    """A walk over the places of a world, by number; home lies between its bouts."""
 
-    Attributes:
-        individual: who walked.
-        places: `[T]` the place at each step.
-        bout: `[T]` the bout of each step, from 0; the way home at its end belongs to a bout.
-    """
-
-    individual: str
-    places: Ints
-    bout: Ints
+    individual: str  # who walked
+    places: Ints  # `[T]` the place at each step
+    bout: Ints  # `[T]` the bout of each step, from 0; the way home at its end belongs to a bout
 
     def until(self, place: int) -> Route:
         """What comes before the first visit of a place; all where it is never visited."""

@@ -1,7 +1,5 @@
 """Simulated individuals: walks drawn from a model, with parameters that are known."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Recorded walks ready to be fitted, in whatever process; what an agent expected along them is kept in a folder."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import zipfile
@@ -25,19 +23,12 @@ _ARRAYS = ("choice", "way", "gain", "extra", "age")
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """Walks, their world, and the folder that keeps what an agent expected along them.
+    """Walks, their world, and the folder that keeps what an agent expected along them."""
 
-    Attributes:
-        routes: of each individual.
-        ground: of their world.
-        folder: a folder that is there; what it keeps of the same walks is used again.
-        look_ahead: steps that the agent looks ahead.
-    """
-
-    routes: Sequence[Route]
-    ground: Ground
-    folder: Path
-    look_ahead: int = LOOK_AHEAD
+    routes: Sequence[Route]  # of each individual
+    ground: Ground  # of their world
+    folder: Path  # a folder that is there; what it keeps of the same walks is used again
+    look_ahead: int = LOOK_AHEAD  # steps that the agent looks ahead
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Source) and (self.folder, self.digest) == (other.folder, other.digest)

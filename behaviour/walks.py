@@ -1,7 +1,5 @@
 """Recorded walks: who went where, bout by bout."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Iterable, Mapping
@@ -18,19 +16,13 @@ _COLUMNS = ("individual", "bout", "node")
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """The recorded walk of one individual.
+    """The recorded walk of one individual."""
 
-    Attributes:
-        individual: its name.
-        bouts: the nodes of each bout, in order, as they were written.
-        about: what else the file says of it, such as `water_restricted`.
-        source: the file.
-    """
-
-    individual: str
-    bouts: tuple[tuple[Any, ...], ...]
+    individual: str  # its name
+    bouts: tuple[tuple[Any, ...], ...]  # the nodes of each bout, in order, as they were written
+    # what else the file says of it, such as `water_restricted`
     about: Mapping[str, Any] = field(default_factory=dict[str, Any])
-    source: str = "walk"
+    source: str = "walk"  # the file
 
     def __post_init__(self) -> None:
         if not self.bouts:

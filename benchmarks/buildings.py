@@ -4,15 +4,15 @@
     python benchmarks/buildings.py FOLDER --worlds house_31 farm --sights distinct ways 6 --starts 10 --jobs 2
     python benchmarks/buildings.py FOLDER --worlds house_31 house_49 --noise odometry=0.05 heading=3
     python benchmarks/buildings.py FOLDER --worlds streets_300 --told bearing
-    python benchmarks/buildings.py FOLDER --worlds farm --cost metres
+    python benchmarks/buildings.py FOLDER --cost metres --told lengths
     python benchmarks/buildings.py --worlds hall office geometric labyrinth
 
 WORLDS are the graph files of the folder by name, all of them unless given, and families that are made, another with
 each seed: hall (20x20), office (3 corridors of 8), geometric (100 places, degree 8), labyrinth (1,000 rooms). Seeds
 settle the start, the sights at random, the noise and the agent. Nearest frontier is the mean of 20 draws of its ties
-from the same start; by metres it is told how long ways are that nobody walked, and the agent is not. `worst` is the
-worst single start; `beyond` the steps from the last place entered until every way was known as well; milliseconds are
-processor time of a step of agent, world and judge.
+from the same start; by metres it is told how long ways are that nobody walked, and so is the agent with
+`--told lengths`. `worst` is the worst single start; `beyond` the steps from the last place entered until every way was
+known as well; milliseconds are processor time of a step of agent, world and judge.
 """
 
 from __future__ import annotations
@@ -108,7 +108,7 @@ def main() -> None:
         "--sights", nargs="+", default=["6"], metavar="KIND", help="distinct, ways or a number at random"
     )
     parser.add_argument("--noise", nargs="+", default=[], metavar="KIND=RATE")
-    parser.add_argument("--told", help="of a pose: displacement, bearing or none; the most that is known unless given")
+    parser.add_argument("--told", help="of a pose: lengths, displacement (unless given), bearing or none")
     parser.add_argument("--cost", default="steps", choices=("steps", "metres"))
     parser.add_argument("--starts", type=positive, default=10)
     parser.add_argument("--seed", type=int, default=0)

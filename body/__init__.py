@@ -1,7 +1,5 @@
 """Lower levels: from pixels to percepts, from ways to low-level actions."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 

@@ -1,7 +1,5 @@
 """What an environment of MiniGrid wants done, read from its mission: its goal, or something to go to, fetch or open."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 
@@ -20,17 +18,11 @@ _OTHER = re.compile(r" then |after you| and (?!then get to the goal)|next to|beh
 
 @dataclass(frozen=True, eq=False)
 class Errand:
-    """Something to be done at a tile.
+    """Something to be done at a tile."""
 
-    Attributes:
-        wanted: `[K]` the tiles that will do.
-        upon: whether to stand on it; else before it.
-        action: what is done there at last; None of nothing.
-    """
-
-    wanted: NDArray[np.bool_]
-    upon: bool
-    action: str | None = None
+    wanted: NDArray[np.bool_]  # `[K]` the tiles that will do
+    upon: bool  # whether to stand on it; else before it
+    action: str | None = None  # what is done there at last; None of nothing
 
 
 def errand_of(mission: str) -> Errand | None:

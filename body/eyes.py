@@ -1,7 +1,5 @@
 """From a view to tiles: likelihoods of each, from pixels or from symbols."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,8 +9,7 @@ from numpy.typing import NDArray
 from ..model import CogmapError
 from .vocabulary import vocabulary
 
-DOUBT = 7.0
-"""Nats by which the least likely tile is less likely than the most likely one: no look is surer than that."""
+DOUBT = 7.0  # nats by which the least likely tile is less likely than the most likely one: no look is surer than that
 _QUIET = 3.0  # of 255: no camera is taken to be better
 _PARTS = 4  # in which looks are compared: small products are not handed to threads, which others may keep waiting
 _SPREAD = 0.75  # quantile of the tiles whose misfit tells the noise: some may be none that is known
@@ -20,16 +17,11 @@ _SPREAD = 0.75  # quantile of the tiles whose misfit tells the noise: some may b
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """One view, tile by tile, column by column from the left, each from the far end.
+    """One view, tile by tile, column by column from the left, each from the far end."""
 
-    Attributes:
-        log_likelihood: `[n * n, K]` log P(what is seen | tile), the largest 0.
-        tile: `[n * n]` the most likely tile.
-        seen: `[n * n]` whether there is anything to see; false of the agent's own tile, on which it stands.
-    """
-
-    log_likelihood: NDArray[np.float64]
-    tile: NDArray[np.int64]
+    log_likelihood: NDArray[np.float64]  # `[n * n, K]` log P(what is seen | tile), the largest 0
+    tile: NDArray[np.int64]  # `[n * n]` the most likely tile
+    # `[n * n]` whether there is anything to see; false of the agent's own tile, on which it stands
     seen: NDArray[np.bool_]
 
 

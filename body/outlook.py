@@ -1,7 +1,5 @@
 """What can be told of a room from what was seen of it: its exits, and what would have to be looked at."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 
@@ -10,8 +8,7 @@ import numpy as np
 from ..worlds import minigrid as mg
 from .room_map import Mask, Pose, RoomMap, shifted
 
-MAYBE = 0.25
-"""Probability that a room goes on beyond what was seen from which on that has to be looked at."""
+MAYBE = 0.25  # probability that a room goes on beyond what was seen from which on that has to be looked at
 
 _HEADINGS = np.array(mg.AHEAD)
 _FAR, _WIDE = 6, 3  # tiles that are in view ahead, and to each side
@@ -35,19 +32,14 @@ class Sizes:
 
 @dataclass(frozen=True)
 class Outlook:
-    """A room as far as it was seen.
+    """A room as far as it was seen."""
 
-    Attributes:
-        room: its tiles.
-        exits: doors and gaps by direction (0 right, 1 down, 2 left, 3 up), in the order of their place in the wall.
-        unknown: tiles beside the room of which nothing is known, by direction.
-        needed: for each direction in which no exit is known, the tiles that have to be looked at; empty where there is
-            surely none.
-    """
-
-    room: frozenset[mg.Tile]
+    room: frozenset[mg.Tile]  # its tiles
+    # doors and gaps by direction (0 right, 1 down, 2 left, 3 up), in the order of their place in the wall
     exits: tuple[tuple[mg.Tile, ...], ...]
-    unknown: tuple[frozenset[mg.Tile], ...]
+    unknown: tuple[frozenset[mg.Tile], ...]  # tiles beside the room of which nothing is known, by direction
+    # for each direction in which no exit is known, the tiles that have to be looked at; empty where there is
+    # surely none
     needed: tuple[frozenset[mg.Tile], ...]
 
     @property

@@ -1,7 +1,5 @@
 """What an agent needs of a lower level: four verbs, and what they bring."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol, runtime_checkable

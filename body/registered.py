@@ -1,7 +1,5 @@
 """Any environment of MiniGrid with a body in it, as a world for the level above."""
 
-from __future__ import annotations
-
 from contextlib import redirect_stdout
 from io import StringIO
 from typing import Any, ClassVar
@@ -77,11 +75,7 @@ class RegisteredWorld(gym.Env[Observation, Any]):
         return self.body.steps
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Wake up where the environment puts it.
-
-        Raises:
-            WorldError: the mission is not understood.
-        """
+        """Wake up where the environment puts it. Raises WorldError: the mission is not understood."""
         super().reset(seed=seed)
         with redirect_stdout(StringIO()):  # BabyAI tells of what it tried in vain
             seen, _ = self.env.reset(seed=seed, options=options)

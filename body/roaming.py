@@ -1,7 +1,5 @@
 """A body that remembers where it has been: its ways are doors, it runs errands, and fetches keys."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Shortest ways over tiles: turns, steps, and doors to open."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Collection
 from itertools import count
@@ -10,8 +8,7 @@ from ..worlds import minigrid as mg
 from .room_map import Pose, RoomMap
 from .whereabouts import FORWARD, LEFT, PICKUP, RIGHT, TOGGLE
 
-LIFTING = 8
-"""Steps that it is worth to go round a thing rather than to take it out of the way."""
+LIFTING = 8  # steps that it is worth to go round a thing rather than to take it out of the way
 
 
 def route(

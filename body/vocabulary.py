@@ -1,7 +1,5 @@
 """What tiles there may be, how they look, and what can be done with them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

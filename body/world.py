@@ -1,7 +1,5 @@
 """A body in its world, as a world for the level above."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
@@ -18,8 +16,7 @@ from .protocol import Percept
 GOAL = "white"
 """What a room with a white tile is called."""
 
-_NAMES = ("right", "down", "left", "up")
-"""The ways of a body by their numbers, as the actions of mazes are called."""
+_NAMES = ("right", "down", "left", "up")  # the ways of a body by their numbers, as the actions of mazes are called
 
 
 class EmbodiedWorld(gym.Env[Observation, Any]):
@@ -79,11 +76,7 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
         return self._observation(), self._info()
 
     def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Go through a way; who stays looks at what was not looked at yet.
-
-        Raises:
-            WorldError: no such action.
-        """
+        """Go through a way; who stays looks at what was not looked at yet. Raises WorldError: no such action."""
         if action not in range(len(GRID.names)):
             raise WorldError(f"no action {action!r}; use 0 to 4 ({', '.join(GRID.names)})")
         name, before = GRID.names[int(action)], self.body.reward

@@ -1,7 +1,5 @@
 """The paper's studies and the user's own: runs, sweeps, tables and the command line."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 

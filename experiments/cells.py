@@ -1,7 +1,5 @@
 """One exploration as a cell of a table: a maze, an agent, a seed; many of them, and only those not made before."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
@@ -9,7 +7,8 @@ from functools import partial
 from hashlib import sha256
 from importlib.metadata import version
 from itertools import chain
-from typing import Any, Protocol, TypedDict, TypeVar, Unpack
+from operator import attrgetter, methodcaller
+from typing import Any, TypedDict, TypeVar, Unpack
 
 from ..agent import Settings
 from ..baselines import CscgSettings
@@ -28,19 +27,12 @@ Key = tuple[str, str, str, str, int]
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """One exploration that is to be made.
+    """One exploration that is to be made."""
 
-    Attributes:
-        maze: its layout.
-        agent: one of `AGENTS`.
-        seed: of the start room and of the agent.
-        growth: of the agent `cogmap`; without meaning for the others.
-    """
-
-    maze: Maze
-    agent: str
-    seed: int
-    growth: str = "predicted"
+    maze: Maze  # its layout
+    agent: str  # one of `AGENTS`
+    seed: int  # of the start room and of the agent
+    growth: str = "predicted"  # of the agent `cogmap`; without meaning for the others
 
     @property
     def key(self) -> Key:
@@ -50,21 +42,13 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Row(Record):
-    """One exploration that was made, as ledgers keep it. Rows are equal whatever seconds they took.
+    """One exploration that was made, as ledgers keep it. Rows are equal whatever seconds they took."""
 
-    Attributes:
-        world: name of the maze.
-        layout: digest of rooms and sights, since two mazes may have one name.
-        agent: name of the agent.
-        growth: of the agent `cogmap`.
-        run: its figures.
-    """
-
-    world: str
-    layout: str = field(repr=False)
-    agent: str
-    growth: str
-    run: ExploreRun
+    world: str  # name of the maze
+    layout: str = field(repr=False)  # digest of rooms and sights, since two mazes may have one name
+    agent: str  # name of the agent
+    growth: str  # of the agent `cogmap`
+    run: ExploreRun  # its figures
 
     @property
     def key(self) -> Key:
@@ -72,21 +56,8 @@ class Row(Record):
         return self.world, self.layout, self.agent, self.growth, self.run.seed
 
 
-class KeptRow(Protocol):
-    """A row that a ledger can keep."""
-
-    @property
-    def key(self) -> Any:
-        """That of its task."""
-        ...
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain JSON values."""
-        ...
-
-
 _Task = TypeVar("_Task")
-_Kept = TypeVar("_Kept", bound=KeptRow)
+_Kept = TypeVar("_Kept")
 
 
 class Options(TypedDict, total=False):
@@ -123,17 +94,22 @@ def kept_rows(
     ledger: Ledger | None,
     executor: Executor | None,
     made_with: Mapping[str, Any],
+    *,
+    key: Callable[[_Kept], Any] = attrgetter("key"),
+    write: Callable[[_Kept], dict[str, Any]] = methodcaller("to_dict"),
 ) -> Iterator[_Kept]:
     """A row of each task, by its key: first those that the ledger has, then the others, each kept at once.
+
+    A row tells the key of its task, and can be written as plain JSON values.
 
     Raises:
         CogmapError: the ledger was made with something else, `read` refuses one of its rows, or a worker was killed.
     """
     left = dict(tasks)
     rows = [] if ledger is None else ledger.begin(read, cogmap=version("cogmap"), **made_with)
-    kept = [row for row in rows if left.pop(row.key, None) is not None]
+    kept = [row for row in rows if left.pop(key(row), None) is not None]
     new = (row for _, row in completed(run, list(left.values()), executor=executor))
-    return chain(kept, new if ledger is None else _keeping(new, ledger))
+    return chain(kept, new if ledger is None else _keeping(new, ledger, write))
 
 
 def run_cell(cell: Cell, **options: Unpack[Options]) -> Row:
@@ -149,10 +125,10 @@ def layout_digest(maze: Maze) -> str:
     return sha256("\n".join([*lines, *map(str, sorted(maze.walls))]).encode()).hexdigest()[:12]
 
 
-def _keeping(rows: Iterator[_Kept], ledger: Ledger) -> Iterator[_Kept]:
+def _keeping(rows: Iterator[_Kept], ledger: Ledger, write: Callable[[_Kept], dict[str, Any]]) -> Iterator[_Kept]:
     try:
         for row in rows:
-            ledger.append(row.to_dict())
+            ledger.append(write(row))
             yield row
     except WorkerLostError as error:
         kept = f"finished runs are kept in {ledger.path}, run the same again to go on"

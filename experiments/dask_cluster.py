@@ -1,7 +1,5 @@
 """The workers of a Dask cluster."""
 
-from __future__ import annotations
-
 import asyncio
 import logging
 import warnings
@@ -18,8 +16,7 @@ Parameters = ParamSpec("Parameters")
 Result = TypeVar("Result")
 
 _LOUD = ("distributed", "tornado", "asyncio")
-PATIENCE = 5.0
-"""Seconds in which a scheduler must answer, and again in which a worker must be there."""
+PATIENCE = 5.0  # seconds in which a scheduler must answer, and again in which a worker must be there
 
 
 @contextmanager

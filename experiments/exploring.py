@@ -1,7 +1,5 @@
 """Exploring a world from a random place: how many steps until all of it is known, and how few would do?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -76,19 +74,12 @@ class ExploreRun(Record):
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """One exploration with all that it leaves behind.
+    """One exploration with all that it leaves behind."""
 
-    Attributes:
-        run: its figures.
-        path: the true rooms, the start first.
-        walker: the agent, after its last observation.
-        truth: to compare its map with.
-    """
-
-    run: ExploreRun
-    path: tuple[Place, ...]
-    walker: Any
-    truth: Truth
+    run: ExploreRun  # its figures
+    path: tuple[Place, ...]  # the true rooms, the start first
+    walker: Any  # the agent, after its last observation
+    truth: Truth  # to compare its map with
 
     @property
     def finished(self) -> bool:

@@ -1,7 +1,5 @@
 """Goals that can be reached: labels, rooms that are closed, and the shortest way."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from math import inf
 

@@ -1,7 +1,5 @@
 """What a map is worth beside the truth, whatever its places are called and whether or not they have positions."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -16,26 +14,20 @@ from .running import Moment
 
 BELIEVED = 0.6
 """A true transition counts as known from this probability on."""
-CERTAIN = 0.7
-"""From this probability on an agent counts as certain of a place."""
+CERTAIN = 0.7  # from this probability on an agent counts as certain of a place
 OPEN = 0.5
 """What is imagined behind a way counts as a place of the map if the way is believed to lead there at least so much."""
 
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A map beside the truth.
+    """A map beside the truth."""
 
-    Attributes:
-        places: those that were visited, and those that are imagined behind ways believed open.
-        map_right: whether each visited room is one place, each visited place one room, and every true transition
-            among visited rooms, walls included, is believed at `BELIEVED` or more.
-        known: share of all true transitions of the world that are believed so much.
-    """
-
-    places: int
+    places: int  # those that were visited, and those that are imagined behind ways believed open
+    # whether each visited room is one place, each visited place one room, and every true transition among
+    # visited rooms, walls included, is believed at `BELIEVED` or more
     map_right: bool
-    known: float
+    known: float  # share of all true transitions of the world that are believed so much
 
 
 def judge(map_: CognitiveMap, chart: Chart, rooms: Mapping[int, Place], visited: Collection[Place]) -> Verdict:

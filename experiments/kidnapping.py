@@ -1,7 +1,5 @@
 """Kidnapping: moved without a word in a known world, how soon does an agent know where it is?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Unpack
@@ -13,33 +11,23 @@ from .records import Record, mean, std
 from .running import Moment
 from .session import Many, Options, Session, World, chart_of, described, head_of, many, set_out
 
-AFTER = 20
-"""Steps that a run goes on after recovery, before the map is checked."""
+AFTER = 20  # steps that a run goes on after recovery, before the map is checked
 
 
 @dataclass(frozen=True, slots=True)
 class KidnapRun(Record):
-    """One kidnapping. Where the world was not explored within the steps allowed, nobody was moved.
+    """One kidnapping. Where the world was not explored within the steps allowed, nobody was moved."""
 
-    Attributes:
-        seed: of the start room, of the agent, and of where it was moved to.
-        start: the first room.
-        steps_to_explore: before it was moved; None where it gave up, and all below is None but `recovered`.
-        moved_to: the room in which it found itself; another one than its own.
-        recovered: whether it was certain (by its own threshold) of the true place in time.
-        steps_to_recover: steps until then, 0 at the first observation after the move; None if never.
-        steps_certain_but_wrong: observations after the move, to the end of the run, at which it was certain of
-            another place.
-        map_intact: whether at the end no place was added and every true transition was still believed at 0.6 or more.
-    """
-
-    seed: int
-    start: Place
+    seed: int  # of the start room, of the agent, and of where it was moved to
+    start: Place  # the first room
+    # before it was moved; None where it gave up, and all below is None but `recovered`
     steps_to_explore: int | None = None
-    moved_to: Place | None = None
-    recovered: bool = False
-    steps_to_recover: int | None = None
+    moved_to: Place | None = None  # the room in which it found itself; another one than its own
+    recovered: bool = False  # whether it was certain (by its own threshold) of the true place in time
+    steps_to_recover: int | None = None  # steps until then, 0 at the first observation after the move; None if never
+    # observations after the move, to the end of the run, at which it was certain of another place
     steps_certain_but_wrong: int | None = None
+    # whether at the end no place was added and every true transition was still believed at 0.6 or more
     map_intact: bool | None = None
 
 

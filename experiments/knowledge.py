@@ -1,7 +1,5 @@
 """Scoring a map with the truth, which the agent never sees."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """A file that keeps finished rows, so that what was interrupted goes on where it was."""
 
-from __future__ import annotations
-
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping
@@ -12,8 +10,7 @@ from typing import Any, TypeVar, cast
 
 from ..model import CogmapError, check_size, parse_json
 
-LARGEST = 256 * 2**20
-"""Bytes of the largest file of rows that is read."""
+LARGEST = 256 * 2**20  # bytes of the largest file of rows that is read
 
 SCHEMA, VERSION = "cogmap.cells", 1
 _BEGINNING = f'{{"schema": "{SCHEMA}"'.encode()

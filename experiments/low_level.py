@@ -10,8 +10,7 @@ import gymnasium as gym
 
 from .records import mean
 
-TENTHS = 9
-"""The share of tiles seen, in tenths, that the authors count as explored."""
+TENTHS = 9  # the share of tiles seen, in tenths, that the authors count as explored
 
 
 @dataclass(slots=True)

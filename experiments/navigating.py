@@ -1,7 +1,5 @@
 """Navigating: how far does an agent walk to a sight that it prefers, in a world it knows or not?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Required, Unpack, cast
@@ -17,31 +15,22 @@ from .session import Many, Options, Session, World, chart_of, described, draw_st
 
 @dataclass(frozen=True, slots=True)
 class NavigateRun(Record):
-    """One way to a goal: a room with the preferred sight in which the agent chooses to stay.
+    """One way to a goal: a room with the preferred sight in which the agent chooses to stay."""
 
-    Attributes:
-        seed: of everything random.
-        start: the room from which it sets out for the goal; None where it did not explore the maze in time.
-        reached: whether it chose to stay in a room with the sight.
-        steps: until then, that last one not counted; None if never.
-        shortest: steps of the shortest path from `start` to the nearest room with the sight.
-        explored_from: the room where it began to explore; None if it set out unexplored.
-        steps_to_explore: None where it gave up, or set out unexplored.
-        frontier_steps: of nearest-frontier search from `start` until it first stands in a room with the sight; only
-            if the agent set out unexplored.
-        steps_to_stand: until the agent first stands in a room with the sight, whatever it chooses; None if never.
-        low_level_steps: of a body, from setting out until it was there; None if never. `low_level_oracle`: the fewest.
-    """
-
-    seed: int
-    start: Place | None
-    reached: bool
-    steps: int | None
-    shortest: int | None
+    seed: int  # of everything random
+    start: Place | None  # the room from which it sets out for the goal; None where it did not explore the maze in time
+    reached: bool  # whether it chose to stay in a room with the sight
+    steps: int | None  # until then, that last one not counted; None if never
+    shortest: int | None  # steps of the shortest path from `start` to the nearest room with the sight
+    # the room where it began to explore; None if it set out unexplored
     explored_from: Place | None = field(default=None, metadata=OPTIONAL)
-    steps_to_explore: int | None = None
+    steps_to_explore: int | None = None  # None where it gave up, or set out unexplored
+    # of nearest-frontier search from `start` until it first stands in a room with the sight; only if the agent
+    # set out unexplored
     frontier_steps: int | None = field(default=None, metadata=OPTIONAL)
+    # until the agent first stands in a room with the sight, whatever it chooses; None if never
     steps_to_stand: int | None = None
+    # of a body, from setting out until it was there; None if never. `low_level_oracle`: the fewest
     low_level_steps: int | None = field(default=None, metadata=OPTIONAL)
     low_level_oracle: int | None = field(default=None, metadata=OPTIONAL)
 

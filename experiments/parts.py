@@ -1,7 +1,5 @@
 """Names to parts: the one place where agents are made by name, for the command line, ledgers and sweeps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, Self
@@ -10,7 +8,7 @@ import numpy as np
 
 from ..agent import Agent, Settings, TurningAgent
 from ..baselines import ChartFrontier, CscgAgent, CscgSettings, FrontierAgent, RandomAgent
-from ..model import GROWTHS, POSES, Bearings, CogmapError, Pose, Sensor, Sight, StaticGrowth, Ways
+from ..model import GROWTHS, POSES, Bearings, CogmapError, Plane, Pose, Sensor, Sight, StaticGrowth, Ways
 from ..planning import BY, CHOICES, POLICIES, LShaped, MapGuided, Planner, Sampled
 from ..worlds import Chart, HasChart, Motions, World, offered
 
@@ -122,7 +120,8 @@ class Parts:
             seed: of the agent.
 
         Raises:
-            CogmapError: a pose that this world has not, or a baseline that needs displacements.
+            CogmapError: a pose that this world has not, metres where it tells none, or a baseline that needs
+                displacements.
             WorldError: no motions, or no chart.
         """
         motions = offered(world, World, "an agent").motions
@@ -132,13 +131,13 @@ class Parts:
             planner = Planner(policies=POLICIES[self.policies](), choice=CHOICES[self.choice]())
             if planner.explorer is not None:
                 planner = replace(planner, explorer=replace(planner.explorer, by=self.cost))
-            number = int(seed.generate_state(1)[0])
-            own: Any = {
-                "sensors": _sensors(world),
-                "pose": self._pose(world, motions),
-                "growth": growth,
-                "planner": planner,
-            }
+            number, pose = int(seed.generate_state(1)[0]), self._pose(world, motions)
+            if self.cost == "metres" and not isinstance(pose, Plane):
+                raise CogmapError(
+                    "cost metres needs a graph that tells how long its ways are; here every way is one step: "
+                    "leave --cost out"
+                )
+            own: Any = {"sensors": _sensors(world), "pose": pose, "growth": growth, "planner": planner}
             kind = TurningAgent if getattr(world.unwrapped, "turned", False) else Agent
             return kind(motions, **own, settings=self.settings, seed=number)
         if self.agent in CSCG:
@@ -178,7 +177,7 @@ class Parts:
 
 def _sensors(world: Any) -> list[Sensor] | None:
     """A sensor for each that the world has; None where these are the usual two."""
-    names = [name for name in _observed(world) if name not in ("ways", "displacement")]
+    names = [name for name in _observed(world) if name not in ("ways", "displacement", "lengths")]
     if not names or sorted(names) == ["open", "sight"]:
         return None
     own: dict[str, Sensor] = {"open": Ways(learned="bearings" in names), "bearings": Bearings()}

@@ -1,7 +1,5 @@
 """The same function on many tasks: in this process, on several processes, or on a Dask cluster."""
 
-from __future__ import annotations
-
 import logging
 import multiprocessing
 import os
@@ -22,11 +20,8 @@ Parameters = ParamSpec("Parameters")
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
-PATIENCE = 5.0
-"""Seconds that a process may take to end."""
-
-SILENCE = 10.0
-"""Seconds without a result after which is said what is waited for, if that is not the work itself."""
+PATIENCE = 5.0  # seconds that a process may take to end
+SILENCE = 10.0  # seconds without a result after which is said what is waited for, if that is not the work itself
 
 MOST_JOBS = 1024
 

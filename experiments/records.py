@@ -1,7 +1,5 @@
 """Rows of results: frozen dataclasses whose types say how they are written as JSON, and checked when they are read."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any, Self, cast, get_type_hints
@@ -11,8 +9,7 @@ import numpy as np
 from ..model import CogmapError
 from ..worlds import Place
 
-OPTIONAL = {"optional": True}
-"""Metadata of a field that is left out of the JSON where it is None."""
+OPTIONAL = {"optional": True}  # metadata of a field that is left out of the JSON where it is None
 
 
 class Record:
@@ -33,11 +30,7 @@ class Record:
 
     @classmethod
     def from_dict(cls, values: Mapping[str, Any]) -> Self:
-        """The row that `to_dict` gave.
-
-        Raises:
-            CogmapError: a value is missing, unknown or of a wrong kind.
-        """
+        """The row that `to_dict` gave. Raises CogmapError: a value is missing, unknown or of a wrong kind."""
         left, again = dict(values), "remove it, its run is made again"
         row = cls._taken(left, again)
         if left:

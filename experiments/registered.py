@@ -1,7 +1,5 @@
 """Any environment of MiniGrid by its id: rooms to explore, or what its mission asks for."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,9 +9,9 @@ import numpy as np
 
 from ..agent import Agent, Settings
 from ..model import CogmapError
-from .pool import map_seeds
 from .records import Record, mean
 from .running import Moment, run
+from .session import many
 
 _ID = re.compile(r"[\w./-]+-v\d+")
 MOVES = 200
@@ -22,25 +20,15 @@ MOVES = 200
 
 @dataclass(frozen=True, slots=True)
 class IdRun(Record):
-    """One episode in an environment of MiniGrid.
+    """One episode in an environment of MiniGrid."""
 
-    Attributes:
-        seed: of the environment and of the agent.
-        reached: whether the environment gave a reward: the mission is fulfilled.
-        steps: of the upper level.
-        low_level_steps: of the body.
-        rooms: places of the map that were visited.
-        explored: whether at the end no way was left that was seen open and not walked.
-        barred: what the body could not get past, in words.
-    """
-
-    seed: int
-    reached: bool
-    steps: int
-    low_level_steps: int
-    rooms: int
-    explored: bool
-    barred: tuple[str, ...] = ()
+    seed: int  # of the environment and of the agent
+    reached: bool  # whether the environment gave a reward: the mission is fulfilled
+    steps: int  # of the upper level
+    low_level_steps: int  # of the body
+    rooms: int  # places of the map that were visited
+    explored: bool  # whether at the end no way was left that was seen open and not walked
+    barred: tuple[str, ...] = ()  # what the body could not get past, in words
 
 
 def is_registered(world: str) -> bool:
@@ -91,8 +79,7 @@ def run_id(
 
 def run_ids(name: str, *, runs: int, seed: int = 0, **options: Any) -> list[IdRun]:
     """`run_id` with the seeds `seed`, `seed + 1`, ...; `executor` and `on_done` as for `map_tasks`."""
-    how = {key: options.pop(key) for key in ("executor", "on_done") if key in options}
-    return map_seeds(_Task(name, tuple(options.items())), runs=runs, seed=seed, **how)
+    return many(run_id, name, {"runs": runs, "seed": seed, **options})
 
 
 def ids_result(name: str, runs: Sequence[IdRun], *, errand: bool, view: str | None = None) -> dict[str, Any]:
@@ -108,17 +95,6 @@ def ids_result(name: str, runs: Sequence[IdRun], *, errand: bool, view: str | No
     }
     head = {"world": name, "agent": "cogmap", "view": view or "symbolic", "errand": errand}
     return {**head, "runs": [run.to_dict() for run in runs], "summary": summary}
-
-
-@dataclass(frozen=True, slots=True)
-class _Task:
-    """`run_id` with options, so that it can go to other processes."""
-
-    name: str
-    options: tuple[tuple[str, Any], ...]
-
-    def __call__(self, seed: int) -> IdRun:
-        return run_id(self.name, seed, **dict(self.options))
 
 
 def _nothing_left(agent: Agent) -> bool:

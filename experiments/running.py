@@ -1,7 +1,5 @@
 """Any agent in any world: the loop that every experiment is built on."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -26,23 +24,14 @@ class Walker(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """A choice that has been made and not been carried out yet.
+    """A choice that has been made and not been carried out yet."""
 
-    Attributes:
-        step: its number, 0 at the first observation.
-        agent: who chose.
-        world: where.
-        observation: what the agent chose after.
-        info: what the world tells of the truth.
-        action: the choice.
-    """
-
-    step: int
-    agent: Walker
-    world: gym.Env[Any, Any]
-    observation: Any
-    info: Mapping[str, Any]
-    action: int
+    step: int  # its number, 0 at the first observation
+    agent: Walker  # who chose
+    world: gym.Env[Any, Any]  # where
+    observation: Any  # what the agent chose after
+    info: Mapping[str, Any]  # what the world tells of the truth
+    action: int  # the choice
 
 
 Watch = Callable[[Moment], object]
@@ -51,24 +40,16 @@ Watch = Callable[[Moment], object]
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """What came of a run.
+    """What came of a run."""
 
-    Attributes:
-        agent: after its last observation.
-        actions: what it chose, one action an observation; all were carried out.
-        truth: where it truly was at each observation, `info["place"]` or `info["position"]`; empty where the world does
-            not say.
-        records: the agent's own records of these steps; empty for an agent that keeps no `trace`.
-        end: observation and info after the last action, which the agent has not seen; `run(..., begin=end)` goes on.
-        ended: whether the world ended the episode.
-    """
-
-    agent: Any
-    actions: tuple[int, ...]
+    agent: Any  # after its last observation
+    actions: tuple[int, ...]  # what it chose, one action an observation; all were carried out
+    # where it truly was at each observation, `info["place"]` or `info["position"]`; empty where the world does
+    # not say
     truth: tuple[Any, ...]
-    records: tuple[StepRecord, ...]
-    end: Seen
-    ended: bool
+    records: tuple[StepRecord, ...]  # the agent's own records of these steps; empty for an agent that keeps no `trace`
+    end: Seen  # observation and info after the last action, which the agent has not seen; `run(..., begin=end)` goes on
+    ended: bool  # whether the world ended the episode
 
     @property
     def observations(self) -> int:

@@ -1,7 +1,5 @@
 """An agent in a world whose truth is known: set out, exploring, moved without a word."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Executor
 from contextlib import suppress
@@ -55,31 +53,19 @@ class Many(Options, total=False):
 
 @dataclass(slots=True)
 class Session:
-    """An agent in a world of its own.
+    """An agent in a world of its own."""
 
-    Attributes:
-        world: where it is.
-        agent: before its first step, or after its last observation; the action it then chose has been carried out.
-        start: the place where it began, which it takes as its origin.
-        rng: draws what happens to it later.
-        most: moves after which it gives up.
-        seed: of the world.
-        fixed: moves that it takes exploring, if that is settled.
-        steps: in which it explored the world; None where it has not, or gave up.
-        truth: to compare its map with.
-        trail: where it was while it explored.
-    """
-
-    world: Any
-    agent: Any
-    start: Place
-    rng: np.random.Generator
-    most: int
-    seed: int
-    fixed: int | None = None
+    world: Any  # where it is
+    agent: Any  # before its first step, or after its last observation; the action it then chose has been carried out
+    start: Place  # the place where it began, which it takes as its origin
+    rng: np.random.Generator  # draws what happens to it later
+    most: int  # moves after which it gives up
+    seed: int  # of the world
+    fixed: int | None = None  # moves that it takes exploring, if that is settled
+    # in which it explored the world; None where it has not, or gave up
     steps: int | None = field(init=False, default=None)
-    truth: Truth = field(init=False)
-    trail: Trail = field(init=False, default_factory=Trail)
+    truth: Truth = field(init=False)  # to compare its map with
+    trail: Trail = field(init=False, default_factory=Trail)  # where it was while it explored
     _seen: Seen = field(init=False)
 
     def __post_init__(self) -> None:
@@ -163,8 +149,8 @@ def head_of(experiment: str, world: World, **options: Unpack[Options]) -> tuple[
     return head, {"settings": maker.to_dict(chart)}
 
 
-def many(experiment: Callable[..., _Row], world: World, options: Mapping[str, Any]) -> list[_Row]:
-    """Rows of an experiment; `options` are `Many`, and others of the experiment."""
+def many(experiment: Callable[..., _Row], world: World | str, options: Mapping[str, Any]) -> list[_Row]:
+    """Rows of an experiment in a world; `options` are `Many`, and others of the experiment."""
     how = {name: value for name, value in options.items() if name in ("runs", "seed", "executor", "on_done")}
     own = {name: value for name, value in options.items() if name not in how}
     return map_seeds(partial(experiment, world, **own), **how)

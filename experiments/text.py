@@ -1,7 +1,5 @@
 """Figures as text, and text and tables in a terminal."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """What exploring a graph is measured by: nearest-frontier search from the same start, and the best tour found."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
@@ -10,14 +8,9 @@ import numpy as np
 
 from ..worlds import Chart, Maze, Place, frontier_walk, tour, walk_length
 
-DRAWS = 20
-"""Walks of nearest-frontier search whose mean is taken, each with draws of its own; fewer in a large world."""
-
-WORK = 10_000
-"""Places of all these walks together, at most, but for one walk."""
-
-MOST_TOURED = 2_000
-"""Places of the largest world whose offline tour is sought along with a run."""
+DRAWS = 20  # walks of nearest-frontier search whose mean is taken, each with draws of its own; fewer in a large world
+WORK = 10_000  # places of all these walks together, at most, but for one walk
+MOST_TOURED = 2_000  # places of the largest world whose offline tour is sought along with a run
 
 ROUNDS = 100
 

@@ -1,7 +1,5 @@
 """What follows from evidence: beliefs step by step, exact posteriors of factor graphs, their evidence, free energy."""
 
-from __future__ import annotations
-
 from .approximate import APPROXIMATIONS, Loopy, LoopyReport, Sampling, SamplingReport
 from .compiled import CompiledGraph, compile_graph
 from .errors import ImpossibleEvidence

@@ -1,7 +1,5 @@
 """A graph compiled once and asked many times: evidence changes, the tree stays."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -32,8 +30,7 @@ from .exact import (
 from .posterior import MostProbable, Name, Posterior
 from .query import checked_pairs, checked_targets, log_product
 
-MOST_TREES = 16
-"""Sets of observed variables whose trees are kept."""
+MOST_TREES = 16  # sets of observed variables whose trees are kept
 
 
 @dataclass(slots=True)

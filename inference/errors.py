@@ -1,7 +1,5 @@
 """The error of evidence that cannot happen."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 
 from ..model import CogmapError, FactorGraph

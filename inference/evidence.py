@@ -1,7 +1,5 @@
 """Evidence as a person gives it (labels, likelihoods) turned into what engines need (numbers)."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 
@@ -12,19 +10,13 @@ from ..model import AllEvidence, CogmapError, FactorGraph, FloatArray
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """What is known of the variables of a graph.
+    """What is known of the variables of a graph."""
 
-    Attributes:
-        labels: the labels observed, by name.
-        likelihoods: the likelihoods observed, by name, one a label of the domain.
-        fixed: index of the one label left, by number of the variable; variables of one label are among them.
-        soft: `[cardinality]` likelihoods, by number of the variable.
-    """
-
-    labels: Mapping[str, Hashable]
-    likelihoods: Mapping[str, tuple[float, ...]]
+    labels: Mapping[str, Hashable]  # the labels observed, by name
+    likelihoods: Mapping[str, tuple[float, ...]]  # the likelihoods observed, by name, one a label of the domain
+    # index of the one label left, by number of the variable; variables of one label are among them
     fixed: Mapping[int, int]
-    soft: Mapping[int, FloatArray]
+    soft: Mapping[int, FloatArray]  # `[cardinality]` likelihoods, by number of the variable
 
 
 def given(graph: FactorGraph, evidence: AllEvidence | None = None) -> Given:

@@ -13,21 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import CogmapError, GenerativeModel, Percept, Successors, distinct
+from ..model import CogmapError, Floats, GenerativeModel, Ints, Percept, Successors, distinct
 from .errors import ImpossibleEvidence
 from .message import Belief, Message
 
-PRUNED = 1e-8
-"""Odds beside the most probable place from which on another one may matter later."""
-
-FEW = 50
-"""Visited places that are looked at one and all."""
-
-SMALL = 1e-250
-"""Likelihoods that are all below are brought up, so that none is rounded to zero."""
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+PRUNED = 1e-8  # odds beside the most probable place from which on another one may matter later
+FEW = 50  # visited places that are looked at one and all
+SMALL = 1e-250  # likelihoods that are all below are brought up, so that none is rounded to zero
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,8 +5,6 @@ and the prior R (the rest), with Z_R = Σ_x Π_R f(x). A product of experts such
 directed prior has Z_R = 1. F counts the factors as they are, so log Z_R stands beside the complexity.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 
@@ -27,26 +25,16 @@ class FreeEnergy:
     """F[Q] and its parts, all in nats. With Q(x) over the latent variables and evidence o:
 
     F = energy - entropy = divergence - log_evidence = complexity - accuracy - log_prior_normaliser.
-
-    Attributes:
-        free_energy: F = E_Q[log Q(x) - log Π_f f(x, o)], never below -log Z.
-        energy: -E_Q[log Π_f f(x, o)].
-        entropy: H[Q] = -E_Q[log Q(x)].
-        divergence: KL[Q || P(x | o)], the posterior approximation; 0 for the exact posterior.
-        log_evidence: log Z = log Σ_x Π_f f(x, o).
-        complexity: KL[Q || Π_R f / Z_R], from the normalised prior.
-        accuracy: E_Q[log Π_L f(x, o)].
-        log_prior_normaliser: log Z_R; 0 for a directed prior.
     """
 
-    free_energy: float
-    energy: float
-    entropy: float
-    divergence: float
-    log_evidence: float
-    complexity: float
-    accuracy: float
-    log_prior_normaliser: float
+    free_energy: float  # F = E_Q[log Q(x) - log Π_f f(x, o)], never below -log Z
+    energy: float  # -E_Q[log Π_f f(x, o)]
+    entropy: float  # H[Q] = -E_Q[log Q(x)]
+    divergence: float  # KL[Q || P(x | o)], the posterior approximation; 0 for the exact posterior
+    log_evidence: float  # log Z = log Σ_x Π_f f(x, o)
+    complexity: float  # KL[Q || Π_R f / Z_R], from the normalised prior
+    accuracy: float  # E_Q[log Π_L f(x, o)]
+    log_prior_normaliser: float  # log Z_R; 0 for a directed prior
 
 
 def is_likelihood(graph: FactorGraph, factor: Factor) -> bool:

@@ -20,30 +20,24 @@ from .evidence import given
 from .exact import MEMORY, buckets, forward, plan_elimination, reduce, tree_of
 
 METHODS = ("em", "variational")
-CHUNK = 2**27
-"""Bytes of products and messages that rows asked at once should take."""
+CHUNK = 2**27  # bytes of products and messages that rows asked at once should take
 Data = Mapping[str, Sequence[Hashable]] | Sequence[Mapping[str, Hashable]] | Mapping[Variable, Sequence[Hashable]]
 
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """What was learned.
+    """What was learned."""
 
-    Attributes:
-        graph: the graph with the learned values; its learnable tables are new ones, which have the prior of the old
-            ones, and as counts this prior and the expected counts of the data.
-        method: `"em"` or `"variational"`.
-        objective: after each iteration, in nats, never falling: log-likelihood of the data (EM), or the evidence lower
-            bound (variational Bayes).
-        converged: whether it settled before the iterations ran out.
-        counts: expected counts of the data `[outcome, *parents]`, by label of the factor; those that share a table
-            share them.
-    """
-
+    # the graph with the learned values; its learnable tables are new ones, which have the prior of the old
+    # ones, and as counts this prior and the expected counts of the data
     graph: FactorGraph
-    method: str
+    method: str  # `"em"` or `"variational"`
+    # after each iteration, in nats, never falling: log-likelihood of the data (EM), or the evidence lower bound
+    # (variational Bayes)
     objective: tuple[float, ...]
-    converged: bool
+    converged: bool  # whether it settled before the iterations ran out
+    # expected counts of the data `[outcome, *parents]`, by label of the factor; those that share a table share
+    # them
     counts: Mapping[str, FloatArray]
 
 
@@ -168,19 +162,12 @@ class _Tables:
 
 @dataclass(frozen=True, slots=True)
 class _Rows:
-    """Data, equal rows together.
+    """Data, equal rows together."""
 
-    Attributes:
-        names: the variables with data.
-        indices: `[rows, names]` indices of labels; -1 where missing.
-        weights: `[rows]` how often each row was seen.
-        first: `[rows]` the first row of the data that is this one.
-    """
-
-    names: Sequence[str]
-    indices: IntArray
-    weights: FloatArray
-    first: IntArray
+    names: Sequence[str]  # the variables with data
+    indices: IntArray  # `[rows, names]` indices of labels; -1 where missing
+    weights: FloatArray  # `[rows]` how often each row was seen
+    first: IntArray  # `[rows]` the first row of the data that is this one
 
     @classmethod
     def of(cls, graph: FactorGraph, data: Data) -> _Rows:

@@ -6,12 +6,8 @@ from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError, Successors, html_table, is_number
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from ..model import CogmapError, Floats, Ints, Successors, html_table, is_number
 
 
 def _summed(values: Ints, mass: Floats) -> tuple[Ints, Floats]:
@@ -29,17 +25,11 @@ def _ranked(values: Ints, mass: Floats) -> dict[int, float]:
 
 @dataclass(frozen=True)
 class Message:
-    """A filtered joint Q(s, p) over the pairs that hold mass.
+    """A filtered joint Q(s, p) over the pairs that hold mass."""
 
-    Attributes:
-        places: `[n]` place of each pair.
-        positions: `[n]` position (by number) of each pair.
-        mass: `[n]` probability of each pair; sums to one.
-    """
-
-    places: Ints
-    positions: Ints
-    mass: Floats
+    places: Ints  # `[n]` place of each pair
+    positions: Ints  # `[n]` position (by number) of each pair
+    mass: Floats  # `[n]` probability of each pair; sums to one
 
     @cached_property
     def by_place(self) -> tuple[Ints, Floats]:
@@ -97,33 +87,24 @@ def _nothing() -> tuple[Ints, Floats]:
 
 @dataclass(frozen=True)
 class Belief:
-    """What the agent believes after one time step.
+    """What the agent believes after one time step."""
 
-    Attributes:
-        message: Q(s_t, p_t | o_1..t).
-        evidence: log P(o_t | the past), in nats, of what was kept; o_t is all that was sensed.
-        log_likelihood: `[n]` log P(o_t | s_t) for each pair of the message, in nats.
-        moved: P(moved_t | o_1..t).
-        dropped: posterior mass that was left out of the support, at most.
-        examined: whether being displaced was examined; if not, all of it would have been dropped.
-        pairwise: pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`.
-        doubt: probability of the hypotheses about the map in which the agent is elsewhere than this belief has it.
-        likelihoods: `[n, F]` P(reading | s_t) of each sensor that sensed something, all together up to one factor;
-            empty in a belief that was loaded.
-        pruned: places that were dropped from the support, and their mass beside the kept ones'.
-        ahead: where the action may have led from each place of the step before; None at first, and if loaded.
-    """
-
-    message: Message
-    evidence: float
-    log_likelihood: Floats
-    moved: float
-    dropped: float
-    examined: bool
+    message: Message  # Q(s_t, p_t | o_1..t)
+    evidence: float  # log P(o_t | the past), in nats, of what was kept; o_t is all that was sensed
+    log_likelihood: Floats  # `[n]` log P(o_t | s_t) for each pair of the message, in nats
+    moved: float  # P(moved_t | o_1..t)
+    dropped: float  # posterior mass that was left out of the support, at most
+    examined: bool  # whether being displaced was examined; if not, all of it would have been dropped
+    # pairwise posterior Q(s_t-1, s_t, not moved): previous places, next places, and masses, each `[m]`
     pairwise: tuple[Ints, Ints, Floats]
+    # probability of the hypotheses about the map in which the agent is elsewhere than this belief has it
     doubt: float = 0.0
+    # `[n, F]` P(reading | s_t) of each sensor that sensed something, all together up to one factor; empty in a
+    # belief that was loaded
     likelihoods: Floats = field(default_factory=lambda: np.zeros((0, 0)))
+    # places that were dropped from the support, and their mass beside the kept ones'
     pruned: tuple[Ints, Floats] = field(default_factory=_nothing)
+    # where the action may have led from each place of the step before; None at first, and if loaded
     ahead: Successors | None = None
 
     def __repr__(self) -> str:

@@ -1,7 +1,5 @@
 """What inference returns: posteriors and most probable assignments."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -14,23 +12,16 @@ from .evidence import Given
 from .exact import Solution, entropy
 
 Name = str | Variable
-LARGEST_JOINT = 2**28
-"""Entries of the largest joint that is handed out."""
+LARGEST_JOINT = 2**28  # entries of the largest joint that is handed out
 
 
 @dataclass(frozen=True, slots=True)
 class Posterior:
-    """P(x | evidence) = Π_f f(x_f) / Z. Nothing that it hands out can be changed.
+    """P(x | evidence) = Π_f f(x_f) / Z. Nothing that it hands out can be changed."""
 
-    Attributes:
-        graph: the graph as it was when asked; later additions to the original do not show here.
-        engine: name of the engine that computed it.
-        approximation: what kind of approximation it is and how good; None where it is exact.
-    """
-
-    graph: FactorGraph
-    engine: str
-    approximation: object | None
+    graph: FactorGraph  # the graph as it was when asked; later additions to the original do not show here
+    engine: str  # name of the engine that computed it
+    approximation: object | None  # what kind of approximation it is and how good; None where it is exact
     _given: Given = field(repr=False, compare=False)
     _solution: Solution = field(repr=False, compare=False)
     _joints: dict[tuple[str, ...], FloatArray] = field(repr=False, compare=False)
@@ -161,15 +152,11 @@ class Posterior:
 
 @dataclass(frozen=True, slots=True)
 class MostProbable:
-    """argmax_x Π_f f(x_f) over all that agrees with the evidence.
+    """argmax_x Π_f f(x_f) over all that agrees with the evidence."""
 
-    Attributes:
-        graph: the graph asked about.
-        log_probability: log Π_f f(x_f) there (summed over the rest in a marginal query), times the likelihoods of
-            soft evidence, not normalised; minus log Z it is log P(x | evidence).
-    """
-
-    graph: FactorGraph
+    graph: FactorGraph  # the graph asked about
+    # log Π_f f(x_f) there (summed over the rest in a marginal query), times the likelihoods of soft evidence,
+    # not normalised; minus log Z it is log P(x | evidence)
     log_probability: float
     _labels: dict[str, Hashable] = field(repr=False)
 

@@ -1,7 +1,5 @@
 """The one door to inference: ask a factor graph, choose an engine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Filtering a template for ever: one slice after the other, in constant memory."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -12,8 +10,7 @@ from .exact import MEMORY, buckets, forward, plan_elimination, reduce
 from .posterior import Posterior
 from .query import infer
 
-REACH = 600.0
-"""Nats that one factor spans; a message that spans more is the product of several."""
+REACH = 600.0  # nats that one factor spans; a message that spans more is the product of several
 
 
 class Stream:

@@ -1,7 +1,6 @@
 """What an agent believes: the generative model as a list of factors, its log of changes, growth, the graph language."""
 
-from __future__ import annotations
-
+from .arrays import Floats, Ints
 from .changes import Change, Changes, Entry, Store
 from .cognitive_map import CognitiveMap
 from .column import Column
@@ -83,7 +82,7 @@ from .markup import html_table, safe
 from .motions import Motions, MotionSpec, Position
 from .percept import OUTCOMES, Outcome, Percept
 from .periods import Periods, reduced, with_period
-from .rates import PAPER_RATES, TABLE_RATES, TEXT_RATES, Priors, Rates, is_number
+from .rates import PAPER_RATES, TABLE_RATES, TEXT_RATES, Priors, Rates, is_number, is_whole
 from .reading import check_size, check_values, count_values, open_regular, parse_json, read_file, unpack_gzip
 from .savepoint import Savepoint, go_back, release, savepoint
 from .slices import Slice, take_slice, window_graph
@@ -94,17 +93,17 @@ __all__ = [
     "BLOCKED", "ELSEWHERE", "EMPTY", "GROWTHS", "KINDS", "LEAST", "OPEN", "OUTCOMES", "PAPER_RATES", "POSES", "SENSORS",
     "TABLE_RATES", "TEXT_RATES", "UNKNOWN", "UNSEEN", "AllEvidence", "Bearings", "Before", "Change", "Changes",
     "CogmapError", "CognitiveMap", "Column", "ConditionalTable", "Context", "Contexts", "Displacement", "Domain",
-    "Entry", "Evidence", "Factor", "FactorGraph", "Features", "FloatArray", "GenerativeModel", "GrownPlace", "Growth",
-    "GrowthDifference", "GrowthEvent", "IntArray", "LabelledTable", "Lattice", "LearnableTable", "ModelFactor",
-    "MotionSpec", "Motions", "NoPose", "ObservedGrowth", "Outcome", "ParameterUpdate", "Percept", "Periods", "Plane",
-    "Pose", "Position", "PredictedGrowth", "Priors", "Rates", "Savepoint", "Sensor", "Sight", "Slice",
-    "SparseDirichlet", "SparseValues", "StaticGrowth", "Store", "Successors", "Support", "Table", "Template",
+    "Entry", "Evidence", "Factor", "FactorGraph", "Features", "FloatArray", "Floats", "GenerativeModel", "GrownPlace",
+    "Growth", "GrowthDifference", "GrowthEvent", "IntArray", "Ints", "LabelledTable", "Lattice", "LearnableTable",
+    "ModelFactor", "MotionSpec", "Motions", "NoPose", "ObservedGrowth", "Outcome", "ParameterUpdate", "Percept",
+    "Periods", "Plane", "Pose", "Position", "PredictedGrowth", "Priors", "Rates", "Savepoint", "Sensor", "Sight",
+    "Slice", "SparseDirichlet", "SparseValues", "StaticGrowth", "Store", "Successors", "Support", "Table", "Template",
     "Transition", "Unseen", "Variable", "Ways", "Whereabouts", "before", "check_folder", "check_size", "check_values",
     "check_writable", "count_values", "counts_of", "decode", "dirichlet_information", "distinct", "encode", "equation",
-    "go_back", "growth_between", "growth_table", "how_known", "html_table", "identity", "is_number", "labelled",
-    "load_graph", "log_bounds", "make_folder", "map_graph", "map_state", "map_table", "open_regular", "parse_json",
-    "place_beyond", "plain", "quoted", "read_bif", "read_file", "read_uai", "read_uai_evidence", "read_xmlbif",
-    "reduced", "release", "restore_map", "safe", "save_graph", "savepoint", "shown", "sparse_values", "table",
-    "take_slice", "transitions", "unpack_gzip", "unused", "updates", "window_graph", "with_period", "write_bif",
-    "write_graphml", "write_through", "write_uai", "write_uai_evidence", "write_whole", "write_xmlbif",
+    "go_back", "growth_between", "growth_table", "how_known", "html_table", "identity", "is_number", "is_whole",
+    "labelled", "load_graph", "log_bounds", "make_folder", "map_graph", "map_state", "map_table", "open_regular",
+    "parse_json", "place_beyond", "plain", "quoted", "read_bif", "read_file", "read_uai", "read_uai_evidence",
+    "read_xmlbif", "reduced", "release", "restore_map", "safe", "save_graph", "savepoint", "shown", "sparse_values",
+    "table", "take_slice", "transitions", "unpack_gzip", "unused", "updates", "window_graph", "with_period",
+    "write_bif", "write_graphml", "write_through", "write_uai", "write_uai_evidence", "write_whole", "write_xmlbif",
 ]  # fmt: skip

@@ -1,7 +1,5 @@
 """The log of everything that is written into a map: read by cursor, and what a step that is broken off goes back by."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
@@ -9,8 +7,7 @@ from numpy.typing import NDArray
 
 from .growth_event import GrowthEvent
 
-KEPT = 1000
-"""Entries that are kept at least, for readers who come late."""
+KEPT = 1000  # entries that are kept at least, for readers who come late
 
 
 class Store(Protocol):

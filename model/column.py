@@ -1,7 +1,5 @@
 """Arrays that grow along with the places or positions of a map."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from math import inf
 from typing import Any

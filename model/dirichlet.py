@@ -1,7 +1,5 @@
 """Sparse growing tables of Dirichlet counts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
 from math import inf
@@ -11,17 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .changes import Change, Changes
 from .errors import CogmapError
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 EMPTY = -2
 """Key of an unused slot."""
 
-LARGEST = 1e301
-"""What no count reaches, so that all those of a row have a finite sum."""
+LARGEST = 1e301  # what no count reaches, so that all those of a row have a finite sum
 
 
 def _grown(array: NDArray[np.generic], shape: tuple[int, int], fill: float) -> NDArray[np.generic]:

@@ -1,11 +1,8 @@
 """Which numbers there are, for arrays so short that the bookkeeping of `np.unique` outweighs the sorting."""
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
-Ints = NDArray[np.int64]
+from .arrays import Ints
 
 
 def distinct(values: Ints) -> tuple[Ints, Ints]:

@@ -1,7 +1,5 @@
 """Labelled domains that grow as their labels are met."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Iterator
 
 from .errors import CogmapError
@@ -34,11 +32,7 @@ class Domain:
         return f"{self.name}{{{', '.join(map(repr, self._labels))}}}"
 
     def find(self, label: Hashable) -> int | None:
-        """The number of `label`, or None where it was never met.
-
-        Raises:
-            CogmapError: the label is not hashable.
-        """
+        """The number of `label`, or None where it was never met. Raises CogmapError: the label is not hashable."""
         try:
             return self._index.get(label)
         except TypeError as error:
@@ -47,11 +41,7 @@ class Domain:
             ) from error
 
     def index(self, label: Hashable) -> int:
-        """The number of `label`.
-
-        Raises:
-            CogmapError: the label was never met.
-        """
+        """The number of `label`. Raises CogmapError: the label was never met."""
         found = self.find(label)
         if found is None:
             known = ", ".join(repr(known) for known in self._labels[:8])
@@ -59,11 +49,7 @@ class Domain:
         return found
 
     def indices(self, labels: Iterable[Hashable]) -> list[int]:
-        """The numbers of `labels`.
-
-        Raises:
-            CogmapError: one was never met.
-        """
+        """The numbers of `labels`. Raises CogmapError: one was never met."""
         labels = list(labels)
         try:
             return list(map(self._index.__getitem__, labels))

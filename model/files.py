@@ -1,7 +1,5 @@
 """Files that are written whole or not at all."""
 
-from __future__ import annotations
-
 import os
 import re
 import stat
@@ -99,11 +97,7 @@ def check_writable(path: Path) -> os.stat_result | None:
 
 
 def check_folder(path: Path) -> None:
-    """Try whether a file can be made where `path` is to be.
-
-    Raises:
-        OSError: it cannot.
-    """
+    """Try whether a file can be made where `path` is to be. Raises OSError: it cannot."""
     probe = _beside(Path(os.path.realpath(path)))
     try:
         os.close(_opened(probe, 0o600))
@@ -112,11 +106,7 @@ def check_folder(path: Path) -> None:
 
 
 def make_folder(folder: Path) -> Path:
-    """The folder, made where it is missing.
-
-    Raises:
-        CogmapError: it cannot be made.
-    """
+    """The folder, made where it is missing. Raises CogmapError: it cannot be made."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

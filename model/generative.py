@@ -1,13 +1,12 @@
 """The generative model (eq. 1) as a list of factors over places that come as they are imagined."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .changes import Change, Changes, Store
 from .dirichlet import SparseDirichlet
 from .errors import CogmapError
@@ -19,9 +18,6 @@ from .motions import Motions, Position
 from .percept import Percept
 from .rates import Priors, Rates
 from .visits import Visits
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 class GenerativeModel:

@@ -1,7 +1,5 @@
 """The append-only log of everything that was ever added to a map."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -19,27 +17,18 @@ KINDS: tuple[GrowthKind, ...] = ("time", "sight", "position", "place", "bind", "
 
 @dataclass(frozen=True, slots=True)
 class GrowthEvent:
-    """One addition to the model.
+    """One addition to the model."""
 
-    Attributes:
-        step: time step at which it happened.
-        kind: `time` (variables and factors of a step), `sight` (a value of o), `position` (a value of p),
-            `place` (a value of s), `bind` (a place known before gets its position: static growth), `unbind`
-            (it was given by mistake), `retract` (the last places were imagined by mistake, and are gone).
-        index: the number that the new step, value or place has from now on; for `retract`, how many places went.
-        label: the sight or the position as the agent knows it; for a place, its position or None.
-        source: the place from which it was seen or entered, or None.
-        action: index of the action that leads there from `source`, or None.
-        sensor: for a `sight`, the name of the sensor whose label it is.
-    """
-
-    step: int
+    step: int  # time step at which it happened
+    # `time` (variables and factors of a step), `sight` (a value of o), `position` (a value of p), `place` (a
+    # value of s), `bind` (a place known before gets its position: static growth), `unbind` (it was given by
+    # mistake), `retract` (the last places were imagined by mistake, and are gone)
     kind: GrowthKind
-    index: int
-    label: Hashable = None
-    source: int | None = None
-    action: int | None = None
-    sensor: str | None = None
+    index: int  # the number that the new step, value or place has from now on; for `retract`, how many places went
+    label: Hashable = None  # the sight or the position as the agent knows it; for a place, its position or None
+    source: int | None = None  # the place from which it was seen or entered, or None
+    action: int | None = None  # index of the action that leads there from `source`, or None
+    sensor: str | None = None  # for a `sight`, the name of the sensor whose label it is
 
 
 def check_growth(rows: NDArray[Any], *, places: int, actions: int, sensors: int) -> None:

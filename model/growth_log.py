@@ -1,14 +1,11 @@
 """The log of growth, and the short form of what in it is long ago."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from .growth_event import GrowthEvent
 
-ROOM = 1000
-"""Events that are kept besides those of the steps that are."""
+ROOM = 1000  # events that are kept besides those of the steps that are
 
 
 class GrowthLog(list[GrowthEvent]):

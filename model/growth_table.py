@@ -16,29 +16,20 @@ from .motions import Position
 if TYPE_CHECKING:
     from networkx import DiGraph
 
-Log = GenerativeModel | Sequence[GrowthEvent]
-"""A map, whose actions have names, or a log alone."""
-
+Log = GenerativeModel | Sequence[GrowthEvent]  # A map, whose actions have names, or a log alone
 MOST = 8  # items of one kind that a text lists
 
 
 @dataclass(frozen=True, slots=True)
 class GrownPlace:
-    """A place that was added, or taken away.
+    """A place that was added, or taken away."""
 
-    Attributes:
-        place: its number; numbers of places that were taken away are given again.
-        step: time step at which it was added.
-        position: where it is at the end of the time looked at (of one that was taken away: where it was before).
-        source: the place from which it was seen or entered, or None.
-        action: the name of the action that leads there from `source`, or None.
-    """
-
-    place: int
-    step: int
+    place: int  # its number; numbers of places that were taken away are given again
+    step: int  # time step at which it was added
+    # where it is at the end of the time looked at (of one that was taken away: where it was before)
     position: Position | None
-    source: int | None
-    action: str | None
+    source: int | None  # the place from which it was seen or entered, or None
+    action: str | None  # the name of the action that leads there from `source`, or None
 
     def __str__(self) -> str:
         at = "" if self.position is None else f" at {self.position}"
@@ -48,29 +39,17 @@ class GrownPlace:
 
 @dataclass(frozen=True, slots=True)
 class GrowthDifference:
-    """How a model after the step `until` differs from the same one before the step `since`.
+    """How a model after the step `until` differs from the same one before the step `since`."""
 
-    Attributes:
-        since: the first step that counts.
-        until: the last step that counts.
-        variables: names of the variables that were added, as `window_graph` names them.
-        sights: labels added to the domain of o.
-        positions: labels added to the domain of p.
-        places: values added to the domain of s.
-        taken: values taken away from it.
-        bound: places that were there before, and their new position.
-        unbound: places that still are there, and the position they lost.
-    """
-
-    since: int
-    until: int
-    variables: tuple[str, ...]
-    sights: tuple[Hashable, ...]
-    positions: tuple[Position, ...]
-    places: tuple[GrownPlace, ...]
-    taken: tuple[GrownPlace, ...]
-    bound: tuple[tuple[int, Position], ...]
-    unbound: tuple[tuple[int, Position], ...]
+    since: int  # the first step that counts
+    until: int  # the last step that counts
+    variables: tuple[str, ...]  # names of the variables that were added, as `window_graph` names them
+    sights: tuple[Hashable, ...]  # labels added to the domain of o
+    positions: tuple[Position, ...]  # labels added to the domain of p
+    places: tuple[GrownPlace, ...]  # values added to the domain of s
+    taken: tuple[GrownPlace, ...]  # values taken away from it
+    bound: tuple[tuple[int, Position], ...]  # places that were there before, and their new position
+    unbound: tuple[tuple[int, Position], ...]  # places that still are there, and the position they lost
 
     def __str__(self) -> str:
         parts = (

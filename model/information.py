@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from .arrays import Floats
 from .errors import CogmapError
-
-Floats = NDArray[np.float64]
 
 
 def dirichlet_information(alpha: ArrayLike, steps: int, *, multiplicity: ArrayLike | None = None) -> Floats:

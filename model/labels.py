@@ -1,7 +1,5 @@
 """Labels as JSON and back, and when two of them are the same."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Hashable

@@ -1,7 +1,5 @@
 """A map as SVG and HTML, for notebooks: short, whatever the map."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .labels import shown
@@ -9,9 +7,7 @@ from .markup import safe
 from .readable_map import ReadableMap
 
 CELL, RADIUS = 48, 15
-LARGEST = 400
-"""Places of a map that is drawn in a notebook."""
-
+LARGEST = 400  # places of a map that is drawn in a notebook
 LEAST = 0.5  # probability of a way that is drawn
 
 

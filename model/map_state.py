@@ -1,7 +1,5 @@
 """A map as plain JSON values and arrays, and back."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -18,11 +16,7 @@ Arrays = dict[str, NDArray[Any]]
 
 
 def map_state(map_: ReadableMap) -> tuple[dict[str, Any], Arrays]:
-    """What every factor has to keep, and the log of growth.
-
-    Raises:
-        CogmapError: a label cannot be written as JSON.
-    """
+    """What every factor has to keep, and the log of growth. Raises CogmapError: a label cannot be written as JSON."""
     stores = (map_.visits, *(store for factor in map_.factors for store in factor.stores))
     arrays = {f"{store.name}.{part}": values for store in stores for part, values in store.state().items()}
     header = {"places": len(map_.places), "factors": {factor.name: factor.state() for factor in map_.factors}}

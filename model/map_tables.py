@@ -1,7 +1,5 @@
 """The tables of a map with their labels, as many places of them as are asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 
 import numpy as np
@@ -59,11 +57,7 @@ def _outcomes(map_: ReadableMap, name: str) -> tuple[str, str, Domain | None]:
 
 
 def checked_places(map_: ReadableMap, places: Sequence[int] | None) -> NDArray[np.int64]:
-    """The places asked for, or all.
-
-    Raises:
-        CogmapError: there is no such place.
-    """
+    """The places asked for, or all. Raises CogmapError: there is no such place."""
     if places is None:
         return np.arange(len(map_.places))
     for place in places:
@@ -73,17 +67,11 @@ def checked_places(map_: ReadableMap, places: Sequence[int] | None) -> NDArray[n
 
 
 def action_named(map_: ReadableMap, action: str | int) -> int:
-    """Index of an action given by name or index.
-
-    Raises:
-        CogmapError: there is none.
-    """
-    names = map_.motions.names
-    if isinstance(action, str) and action in names:
-        return names.index(action)
-    if isinstance(action, int | np.integer) and not isinstance(action, bool) and 0 <= action < len(names):
-        return int(action)
-    raise CogmapError(f"map: no action {action!r}; choose one of {', '.join(names)}")
+    """Index of an action given by name or index. Raises CogmapError: there is none."""
+    index = map_.motions.index(action)
+    if index is None:
+        raise CogmapError(f"map: no action {action!r}; choose one of {', '.join(map_.motions.names)}")
+    return index
 
 
 def _rows(

@@ -1,7 +1,5 @@
 """Text that is safe within HTML and SVG, whatever it holds."""
 
-from __future__ import annotations
-
 import html
 import re
 from collections.abc import Sequence

@@ -5,9 +5,10 @@ from __future__ import annotations
 import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, cast
 
 from .errors import CogmapError
+from .rates import is_whole
 
 Position = tuple[int, ...]
 
@@ -33,25 +34,19 @@ class Motions:
     Where actions have no displacements, each pair that undoes each other, and each action of which that is not known,
     is given an axis of its own, so that there are some; they say nothing, and only `NoPose()` goes with them.
 
-    Attributes:
-        names: action names, in the order of the action indices.
-        displacements: one vector of `n` integers an action; exactly one is zero (`stay`).
-        reverse: without displacements, the index of the action that undoes each, -1 where nobody knows; () of all.
-        placed: whether displacements were given.
-        inverse: for each action the index of the action that undoes it, -1 where nobody knows.
-        stay: index of the action that goes nowhere; without displacements the one of that name.
-
     Raises:
         CogmapError: names repeat, vectors differ in length, an action has no inverse, there is not exactly one that
             stays, or `reverse` is none.
     """
 
-    names: tuple[str, ...]
-    displacements: tuple[Position, ...] = ()
+    names: tuple[str, ...]  # action names, in the order of the action indices
+    displacements: tuple[Position, ...] = ()  # one vector of `n` integers an action; exactly one is zero (`stay`)
+    # without displacements, the index of the action that undoes each, -1 where nobody knows; () of all
     reverse: tuple[int, ...] = ()
-    placed: bool = field(init=False)
+    placed: bool = field(init=False)  # whether displacements were given
+    # for each action the index of the action that undoes it, -1 where nobody knows
     inverse: tuple[int, ...] = field(init=False)
-    stay: int = field(init=False)
+    stay: int = field(init=False)  # index of the action that goes nowhere; without displacements the one of that name
 
     def __post_init__(self) -> None:
         if not self.names:
@@ -136,6 +131,12 @@ class Motions:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def index(self, action: object) -> int | None:
+        """The index of an action given by name or index; None of what is none."""
+        if is_whole(action, 0, len(self) - 1):
+            return int(cast(int, action))
+        return self.names.index(action) if isinstance(action, str) and action in self.names else None
 
     def move(self, position: Position, action: int) -> Position:
         """The position that `action` leads to from `position` where the way is free."""

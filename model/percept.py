@@ -1,7 +1,5 @@
 """What one time step brings."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -27,6 +25,7 @@ class Percept:
         turn: what it measured of a turn.
         moved: the agent is told that it was moved.
         cost: what the move cost.
+        lengths: how far each action leads from here, in the unit of displacements; None as for `costs`.
         costs: what each action is expected to cost from here; None of those of which nobody knows, or of all.
     """
 
@@ -40,6 +39,7 @@ class Percept:
     moved: bool = False
     cost: float | None = None
     costs: tuple[float | None, ...] | None = None
+    lengths: tuple[float | None, ...] | None = None
 
     @property
     def open(self) -> tuple[bool | float | None, ...] | None:

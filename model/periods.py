@@ -1,7 +1,5 @@
 """Charts that close on themselves: positions in Z^n modulo a lattice of periods."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from .motions import Position

@@ -1,7 +1,5 @@
 """Numbers that learning goes by: concentrations before evidence, and counts that evidence adds."""
 
-from __future__ import annotations
-
 from dataclasses import astuple, dataclass, fields
 
 import numpy as np
@@ -9,14 +7,18 @@ import numpy as np
 from .errors import CogmapError
 
 _TINY, _LARGE = 1e-300, 1e12
-_LEAST_FLOOR = 1e-15
-"""Of doors: one minus less than this is one, and what is certain can never be otherwise."""
+_LEAST_FLOOR = 1e-15  # of doors: one minus less than this is one, and what is certain can never be otherwise
 
 
 def is_number(value: object, least: float, most: float) -> bool:
     """Whether it is a number in [least, most]; a truth value is none, nor is a NaN, a text or an array."""
     kind = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
     return kind and bool(least <= value <= most)  # type: ignore[operator]
+
+
+def is_whole(value: object, least: int, most: int) -> bool:
+    """Whether it is a whole number in [least, most]; a truth value is none."""
+    return isinstance(value, int | np.integer) and not isinstance(value, bool) and bool(least <= value <= most)
 
 
 @dataclass(frozen=True, slots=True)

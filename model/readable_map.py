@@ -1,21 +1,17 @@
 """What is believed of the world, read from the factors."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .dirichlet import SparseDirichlet
 from .domain import Domain
 from .errors import CogmapError
 from .factors import Lattice
 from .generative import GenerativeModel
 from .motions import Position
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 class ReadableMap(GenerativeModel):
@@ -108,8 +104,14 @@ class ReadableMap(GenerativeModel):
         return self.transitions.blocked(places)
 
     def transition(self, next_place: int, place: int, action: int) -> float:
-        """P(s' = next_place | s = place, a)."""
-        return float(self.B_s.probability(next_place, np.array([self.row(place, action)]))[0])
+        """P(s' = next_place | s = place, a), a being the action given: another one may be carried out instead.
+
+        `B_s` says where ways lead; it is the same where actions hardly ever go astray.
+        """
+        carried_out = self.transitions.carried_out(action)
+        if carried_out is None:
+            return float(self.B_s.probability(next_place, np.array([self.row(place, action)]))[0])
+        return float(carried_out @ self.B_s.probability(next_place, self.rows_of(np.array([place]))))
 
     def beyond(self, place: int, action: int) -> int | None:
         """The place that `action` most probably leads to from `place` if it is not blocked; None if none is known."""

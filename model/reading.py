@@ -1,7 +1,5 @@
 """Files of others, read within limits: regular ones, no larger than said, JSON that is no more than JSON."""
 
-from __future__ import annotations
-
 import gzip
 import json
 import math
@@ -15,13 +13,11 @@ from typing import Any, BinaryIO, cast
 
 from .errors import CogmapError
 
-LARGEST = 256 * 2**20
-"""Bytes of the largest file that is read whole, packed or not."""
+LARGEST = 256 * 2**20  # bytes of the largest file that is read whole, packed or not
 
 CHUNK = 2**20
 
-MOST_VALUES = 6_000_000
-"""Values of JSON in one file: each takes up to 80 bytes where it is read."""
+MOST_VALUES = 6_000_000  # values of JSON in one file: each takes up to 80 bytes where it is read
 
 _SURROGATE = re.compile(r"[\ud800-\udfff]")
 
@@ -76,11 +72,7 @@ def unpack_gzip(path: str | PathLike[str], content: bytes, *, most: int = LARGES
 
 
 def check_size(path: str | PathLike[str], size: int, most: int) -> None:
-    """Refuse what is too large.
-
-    Raises:
-        CogmapError: it is.
-    """
+    """Refuse what is too large. Raises CogmapError: it is."""
     if size > most:
         raise CogmapError(f"{path} has {size:,} bytes; such a file has {most:,} at most")
 
@@ -109,11 +101,7 @@ def count_values(content: bytes) -> int:
 
 
 def check_values(count: int) -> None:
-    """Refuse more than can be kept in memory.
-
-    Raises:
-        ValueError: there are.
-    """
+    """Refuse more than can be kept in memory. Raises ValueError: there are."""
     if count > MOST_VALUES:
         raise ValueError(f"JSON of {count:,} values or so; {MOST_VALUES:,} are read at most")
 

@@ -5,8 +5,6 @@ puts the old values, then cuts everything that only grows to the length it had, 
 That costs as much as the map is large; a savepoint costs next to nothing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass
@@ -24,22 +22,14 @@ _OURS = __name__.partition(".")[0] + "."
 
 @dataclass(frozen=True, slots=True)
 class Savepoint:
-    """How a model was between two steps.
+    """How a model was between two steps."""
 
-    Attributes:
-        places: how many there were.
-        growth: events in its log of growth.
-        changes: where its log of changes was.
-        stores: what each store needs to go back, besides the log.
-        factors: the same of each factor.
-        others: attributes of parts that are not of this library; None where they cannot be copied.
-    """
-
-    places: int
-    growth: int
-    changes: Any
-    stores: tuple[Any, ...]
-    factors: tuple[Any, ...]
+    places: int  # how many there were
+    growth: int  # events in its log of growth
+    changes: Any  # where its log of changes was
+    stores: tuple[Any, ...]  # what each store needs to go back, besides the log
+    factors: tuple[Any, ...]  # the same of each factor
+    # attributes of parts that are not of this library; None where they cannot be copied
     others: tuple[Mapping[str, Any] | None, ...]
 
 

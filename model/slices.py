@@ -1,42 +1,28 @@
 """The slices of eq. 1 in the language of factor graphs, over the support of the belief."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Floats, Ints
 from .distinct import distinct
 from .factors import Successors, Support, Table
 from .generative import GenerativeModel
 from .graph import FactorGraph
 from .percept import Percept
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Slice:
-    """One time step of the window: domains over the support, and the factors as they were at that step.
+    """One time step of the window: domains over the support, and the factors as they were at that step."""
 
-    Attributes:
-        step: the time step t.
-        percept: what it brought.
-        places: `[n]` domain of s_t, by number.
-        positions: `[m]` domain of p_t, by number.
-        joint: `[n, m]` filtered Q(s_t, p_t).
-        tables: the factors of the step; in what they stand for nothing differs from `FactorGraph`.
-    """
-
-    step: int
-    percept: Percept
-    places: Ints
-    positions: Ints
-    joint: Floats
-    tables: tuple[Table, ...]
+    step: int  # the time step t
+    percept: Percept  # what it brought
+    places: Ints  # `[n]` domain of s_t, by number
+    positions: Ints  # `[m]` domain of p_t, by number
+    joint: Floats  # `[n, m]` filtered Q(s_t, p_t)
+    tables: tuple[Table, ...]  # the factors of the step; in what they stand for nothing differs from `FactorGraph`
 
 
 def take_slice(

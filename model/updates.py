@@ -1,7 +1,5 @@
 """What learning has changed, read from the log of changes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -11,21 +9,13 @@ from .dirichlet import EMPTY, SparseDirichlet
 
 @dataclass(frozen=True, slots=True)
 class ParameterUpdate:
-    """One change of a count.
+    """One change of a count."""
 
-    Attributes:
-        table: `A_o`, `A_p` or `B_s`, or that of another sensor.
-        outcome: sight, position or next place, by number.
-        place: the place in whose column the count changed.
-        action: the action, for `B_s`.
-        amount: what was added to the count.
-    """
-
-    table: str
-    outcome: int
-    place: int
-    action: int | None
-    amount: float
+    table: str  # `A_o`, `A_p` or `B_s`, or that of another sensor
+    outcome: int  # sight, position or next place, by number
+    place: int  # the place in whose column the count changed
+    action: int | None  # the action, for `B_s`
+    amount: float  # what was added to the count
 
 
 def updates(entries: Iterable[Entry]) -> list[ParameterUpdate]:

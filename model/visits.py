@@ -1,7 +1,5 @@
 """Which places were ever entered, and in which order."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

@@ -34,11 +34,7 @@ class PlaceFacts(dict[str, Any]):
 
 
 def shares_json(shares: Mapping[Any, float]) -> list[dict[str, Any]]:
-    """Labels and their probabilities as JSON values.
-
-    Raises:
-        CogmapError: a label cannot be written as JSON.
-    """
+    """Labels and their probabilities as JSON values. Raises CogmapError: a label cannot be written as JSON."""
     return [{"sight": encode(plain(label), where="map"), "probability": p} for label, p in shares.items()]
 
 

@@ -1,32 +1,23 @@
 """Expected free energy of policies, term by term."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Floats
 from .terms import Term
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class ExpectedFreeEnergy:
     """G(policy), term by term, summed over the steps of each policy; `energy["utility"]` is one term, `[P]`.
 
-    Attributes:
-        terms: what G is the sum of, with their signs.
-        values: `[T, P]` of each term and policy, in nats, before its sign.
-
     Raises:
         CogmapError: there is not one row of values a term.
     """
 
-    terms: tuple[Term, ...]
-    values: Floats
+    terms: tuple[Term, ...]  # what G is the sum of, with their signs
+    values: Floats  # `[T, P]` of each term and policy, in nats, before its sign
 
     def __post_init__(self) -> None:
         if self.values.ndim != 2 or len(self.values) != len(self.terms):
@@ -49,11 +40,7 @@ class ExpectedFreeEnergy:
         return np.array([term.sign for term in self.terms]) @ self.values
 
     def __getitem__(self, name: str) -> Floats:
-        """`[P]` the values of one term.
-
-        Raises:
-            CogmapError: no term has this name.
-        """
+        """`[P]` the values of one term. Raises CogmapError: no term has this name."""
         if name not in self.names:
             raise CogmapError(f"expected free energy: no term is called {name!r}; there are {', '.join(self.names)}")
         return self.values[self.names.index(name)]

@@ -1,50 +1,32 @@
 """The record of a plan, and the posterior over policies."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ..model import CogmapError, html_table
+from ..model import CogmapError, Floats, Ints, html_table
 from .choices import Choice
 from .energy import ExpectedFreeEnergy
 from .local import LocalModel
 from .policies import PolicyGenerator
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
-SHOWN = 12
-"""Actions of a plan that its text has."""
+SHOWN = 12  # actions of a plan that its text has
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What was considered, what each policy was worth, and what was chosen.
+    """What was considered, what each policy was worth, and what was chosen."""
 
-    Attributes:
-        model: the local model that the plan was made with.
-        policies: `[P, L]` action indices.
-        expected_free_energy: G term by term, each `[P]`, in nats.
-        probability: `[P]` P(policy) (eq. 6).
-        chosen: index of the chosen policy.
-        action: its first action, the one to take now.
-        cut: prefixes that the bound on the search left out.
-        generator: what made the policies.
-        choice: what chose among them.
-    """
-
-    model: LocalModel
-    policies: Ints
-    expected_free_energy: ExpectedFreeEnergy
-    probability: Floats
-    chosen: int
-    action: int
-    cut: int
-    generator: PolicyGenerator
-    choice: Choice
+    model: LocalModel  # the local model that the plan was made with
+    policies: Ints  # `[P, L]` action indices
+    expected_free_energy: ExpectedFreeEnergy  # G term by term, each `[P]`, in nats
+    probability: Floats  # `[P]` P(policy) (eq. 6)
+    chosen: int  # index of the chosen policy
+    action: int  # its first action, the one to take now
+    cut: int  # prefixes that the bound on the search left out
+    generator: PolicyGenerator  # what made the policies
+    choice: Choice  # what chose among them
 
     def __repr__(self) -> str:
         G = float(self.expected_free_energy.G[self.chosen])

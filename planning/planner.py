@@ -27,20 +27,16 @@ USUAL = Options()
 class Planner:
     """How an agent plans. Its parts are objects; a part of your own is a class with the methods of its base.
 
-    Attributes:
-        policies: which action sequences are compared.
-        terms: what their expected free energy is the sum of, any number, each with a name of its own.
-        choice: which of them is followed.
-        explorer: how it explores where there are places never entered; None for one that goes by the above alone, as
-            any does whose policies, terms or choice are not the usual ones, unless it is given.
-
     Raises:
         CogmapError: a part is of another kind, or terms share a name.
     """
 
-    policies: PolicyGenerator = field(default_factory=MapGuided)
+    policies: PolicyGenerator = field(default_factory=MapGuided)  # which action sequences are compared
+    # what their expected free energy is the sum of, any number, each with a name of its own
     terms: Sequence[Term] = TERMS
-    choice: Choice = field(default_factory=Outward)
+    choice: Choice = field(default_factory=Outward)  # which of them is followed
+    # how it explores where there are places never entered; None for one that goes by the above alone, as any
+    # does whose policies, terms or choice are not the usual ones, unless it is given
     explorer: Options | None = field(default_factory=lambda: USUAL)
 
     def __post_init__(self) -> None:

@@ -1,31 +1,22 @@
 """The prefix tree of some policies: what they share is rolled out once."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Ints = NDArray[np.int64]
+from ..model import Ints
 
 
 @dataclass(frozen=True, slots=True)
 class Prefixes:
-    """The `N` distinct prefixes of some policies, the empty one first, then level by level.
+    """The `N` distinct prefixes of some policies, the empty one first, then level by level."""
 
-    Attributes:
-        parent: `[N]` the prefix that is one step shorter; the empty one is its own.
-        action: `[N]` the last action; of the empty prefix it means nothing.
-        level: `[L + 2]` where the prefixes of each length begin, and `N`: those of length t are
-            `level[t]` to `level[t + 1] - 1`.
-        of: `[P, L]` the prefix of each policy after each step.
-    """
-
-    parent: Ints
-    action: Ints
+    parent: Ints  # `[N]` the prefix that is one step shorter; the empty one is its own
+    action: Ints  # `[N]` the last action; of the empty prefix it means nothing
+    # `[L + 2]` where the prefixes of each length begin, and `N`: those of length t are `level[t]` to `level[t +
+    # 1] - 1`
     level: list[int]
-    of: Ints
+    of: Ints  # `[P, L]` the prefix of each policy after each step
 
     def __len__(self) -> int:
         return len(self.parent)

@@ -1,7 +1,5 @@
 """Expected free energy once more, without sharing and without arrays, to be read against the equations."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

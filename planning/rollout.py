@@ -1,21 +1,16 @@
 """Expected free energy of policies: beliefs rolled forward, every term kept apart."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import CogmapError
+from ..model import CogmapError, Floats, Ints
 from .energy import ExpectedFreeEnergy
 from .local import LocalModel
 from .policies.base import Policies
 from .prefixes import Prefixes, prefixes_of
 from .terms import TERMS, Rollout, Staying, Term
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 CHUNK = 200_000  # numbers in the larger arrays; more policies are evaluated in parts
 
 

@@ -1,4 +1,4 @@
-"""Two hundred random walks: small mazes that change, silent moves, lies; what must hold after every step."""
+"""Random walks, 200 with --study: small mazes that change, silent moves, lies; what must hold after every step."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from walks import assert_agent_is_sound
 
 from cogmap import UNSEEN
 
-WALKS, BATCHES, STEPS = 200, 10, 18
+WALKS, FEW, BATCHES, STEPS = 200, 80, 10, 18
 
 
 def drawn(rng: np.random.Generator) -> tuple[MazeEnv, Agent]:
@@ -57,8 +57,8 @@ def lied(seen: dict[str, Any], rng: np.random.Generator) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("batch", range(BATCHES))
-def test_every_step_of_random_walks_is_sound(batch: int) -> None:
-    for seed in range(batch, WALKS, BATCHES):
+def test_every_step_of_random_walks_is_sound(batch: int, study: bool) -> None:
+    for seed in range(batch, WALKS if study else FEW, BATCHES):
         rng = np.random.default_rng(seed)
         world, agent = drawn(rng)
         for _ in range(STEPS):

@@ -133,7 +133,7 @@ def test_senses_that_lie(spoil: Spoil, growth: str) -> None:
     def observe(seen: dict[str, Any]) -> dict[str, Any]:
         return spoil(next(step), seen, rng)
 
-    for _ in walk(world, agent, 40, seed=1, steer=growth == "observed", observe=observe):
+    for _ in walk(world, agent, 28, seed=1, steer=growth == "observed", observe=observe):
         assert_agent_is_sound(agent)
 
 

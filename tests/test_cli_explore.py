@@ -98,6 +98,7 @@ def test_sights_and_formats_of_files() -> None:
         (["3x3", "--noise", "slip=.1", "--noise", "slip=.2"], "slip is given twice"),
         (["3x3", "--pose", "sphere"], "pose is 'sphere'"),
         (["3x3", "--pose", "turning"], "use --pose lattice, or a body that may be turned"),
+        (["3x3", "--cost", "metres"], "here every way is one step: leave --cost out"),
         (["3x3", "--steps", 0], "--steps"),
         (["3x3", "--steps", 5, "--max-steps", 5], "give one of them"),
         (["bare.json"], "sight"),

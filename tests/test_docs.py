@@ -47,6 +47,21 @@ def repository() -> ModuleType:
     return hook("repository")
 
 
+def test_what_stands_beside_a_field_is_in_the_reference() -> None:
+    pytest.importorskip("griffe")
+    source = """
+    @dataclass
+    class Record:
+        first: int  # one thing
+        # another, which is
+        # longer to tell
+        second: float = 0
+        third: str
+    """
+    told = hook("docstrings").fields_told(source)
+    assert told == {"first": "one thing", "second": "another, which is longer to tell"}
+
+
 def uris(nav: list[object]) -> Iterator[str]:
     for item in nav:
         for page in item.values() if isinstance(item, dict) else [item]:
@@ -149,6 +164,18 @@ def test_blocks_run_one_after_another_and_show_what_they_do(running: ModuleType)
     assert "<!--" not in text
     assert pictures == {"a.png": b""}
     assert text.endswith("end\n")
+
+
+def test_pictures_are_drawn_for_both_themes(running: ModuleType) -> None:
+    draw = (
+        "from matplotlib.figure import Figure\n"
+        "figure = Figure(figsize=(1, 1))\nfigure.subplots().plot([1, 2])\nfigure.savefig('a.png')\n"
+    )
+    text, pictures = running.with_outcomes(f"```python\n{draw}```\n", "howto/x.md")
+    assert "(../drawn/howto/x/a.png#only-light)" in text
+    assert "(../drawn/howto/x/a.dark.png#only-dark)" in text
+    assert sorted(pictures) == ["a.dark.png", "a.png"]
+    assert pictures["a.png"] != pictures["a.dark.png"]
 
 
 def test_commands_run(running: ModuleType) -> None:

@@ -8,6 +8,7 @@ import runpy
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -98,9 +99,16 @@ def test_notebooks_are_whole_and_keep_no_output(notebook: Path) -> None:
             ast.parse("".join(cell["source"]))
 
 
-def test_the_tutorial_and_a_world_of_your_own_run() -> None:
+@pytest.fixture
+def notebooks(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+    """What the build of the documents does with notebooks."""
     pytest.importorskip("mkdocs")
-    notebooks = runpy.run_path(str(FOLDER.parent / "docs" / "hooks" / "notebooks.py"))
+    hooks = FOLDER.parent / "docs" / "hooks"
+    monkeypatch.syspath_prepend(str(hooks))
+    return runpy.run_path(str(hooks / "notebooks.py"))
+
+
+def test_the_tutorial_and_a_world_of_your_own_run(notebooks: dict[str, Any]) -> None:
     tutorial, own = (notebooks["run_notebook"](FOLDER / f"{name}.ipynb") for name in ("tutorial", "own_world"))
     printed = [cell.printed for cell in tutorial]
     assert any("sees 5" in text for text in printed)
@@ -110,9 +118,7 @@ def test_the_tutorial_and_a_world_of_your_own_run() -> None:
     assert any(cell.shown.startswith("<iframe") for cell in own)
 
 
-def test_the_lecture_runs_and_shows_maps_plans_and_beliefs() -> None:
-    pytest.importorskip("mkdocs")
-    notebooks = runpy.run_path(str(FOLDER.parent / "docs" / "hooks" / "notebooks.py"))
+def test_the_lecture_runs_and_shows_maps_plans_and_beliefs(notebooks: dict[str, Any]) -> None:
     cells = notebooks["run_notebook"](LECTURE)
     shown = [cell.shown for cell in cells if cell.shown]
     assert len(shown) >= 6
@@ -123,9 +129,8 @@ def test_the_lecture_runs_and_shows_maps_plans_and_beliefs() -> None:
     assert any(cell.figure.startswith(b"\x89PNG") for cell in cells)
 
 
-def test_a_notebook_that_fails_ends_the_build(tmp_path: Path) -> None:
+def test_a_notebook_that_fails_ends_the_build(tmp_path: Path, notebooks: dict[str, Any]) -> None:
     errors = pytest.importorskip("mkdocs.exceptions")
-    notebooks = runpy.run_path(str(FOLDER.parent / "docs" / "hooks" / "notebooks.py"))
     bad = tmp_path / "bad.ipynb"
     bad.write_text(json.dumps({"cells": [{"cell_type": "code", "source": ["x = 1\n", "x / 0"]}]}))
     with pytest.raises(errors.PluginError, match=r"bad\.ipynb: a cell fails"):

@@ -31,7 +31,7 @@ def test_a_sensor_outside_of_the_package(tmp_path: Path, monkeypatch: pytest.Mon
     page = written("add_a_sensor", tmp_path, monkeypatch)
     thermometer, felt, world = page["Thermometer"], page["felt"], load_world("3x3_alias")
     right = 0
-    for seed in range(8):
+    for seed in range(4):
         rng = np.random.default_rng(seed)
         agent = Agent(world.motions, sensors=[Sight(), thermometer("warmth"), Ways()], seed=seed)
         _, info = world.reset(seed=seed)
@@ -48,7 +48,7 @@ def test_a_sensor_outside_of_the_package(tmp_path: Path, monkeypatch: pytest.Mon
         t = agent.steps - 1
         posterior = infer(agent.graph).marginal(f"s{t}")
         np.testing.assert_allclose(posterior.max(), agent.belief.message.certainty, atol=1e-9)
-    assert right >= 6  # sights alone leave it guessing
+    assert right >= 3  # sights alone leave it guessing
     with pytest.raises(CogmapError, match="the file has a sensor 'Thermometer', which is not of this library"):
         Agent.load(tmp_path / "warm.npz")
     with pytest.raises(CogmapError, match="observation: warmth is 'cold'; give a finite number"):

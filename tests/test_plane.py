@@ -54,6 +54,22 @@ def test_odometry_may_err(noise: dict[str, float]) -> None:
         assert np.median(np.linalg.norm(mine - true, axis=1)) < 10.0 * 5 * noise["odometry"]
 
 
+def streets(blocks: int, houses: int) -> GraphWorld:
+    """Square blocks with places along their sides, all sides straight, their places at uneven distances."""
+    graph, size, rng = nx.Graph(name="streets"), blocks * houses + 1, np.random.default_rng(1)
+    for r, c in np.ndindex(size, size):
+        if r % houses == 0 or c % houses == 0:
+            along, up = (shift * rng.uniform(-3.0, 3.0) for shift in (c % houses > 0, r % houses > 0))
+            graph.add_node((r, c), position=(10.0 * c + along, 10.0 * r + up))
+    for r, c in list(graph):
+        graph.add_edges_from(
+            ((r, c), other)
+            for other, on in (((r + 1, c), c % houses == 0), ((r, c + 1), r % houses == 0))
+            if on and other in graph
+        )
+    return GraphWorld.from_networkx(nx.convert_node_labels_to_integers(graph), sights="ways")
+
+
 def test_bearings_alone_tell_places_apart() -> None:
     """Nobody tells how long ways are; every place is one place."""
     for seed in range(2):
@@ -64,6 +80,17 @@ def test_bearings_alone_tell_places_apart() -> None:
 def agent_of(world: ListedWays, seed: int = 0) -> Agent:
     sensors = [Sight("sight"), Ways(learned=True), Bearings()]
     return Agent(world.motions, sensors=sensors, pose=Plane(), seed=seed)
+
+
+def test_a_place_between_two_that_look_at_each_other_is_not_left_for_the_end() -> None:
+    """What is as long as two ways, where ways go straight on, is not taken for one: that costs 16 steps of 110."""
+    world = ListedWays(streets(3, 4))
+    observation, info = world.reset(seed=0)
+    agent, entered = agent_of(world), {info["place"]}
+    for _ in range(114):
+        observation, _, _, _, info = world.step(agent.step(observation))
+        entered.add(info["place"])
+    assert len(entered) == len(world.unwrapped.chart.places)
 
 
 def test_positions_are_those_that_were_measured(tmp_path: Any) -> None:
@@ -117,6 +144,30 @@ def test_exploring_may_go_by_metres() -> None:
     assert not whole
     made = Parts(cost="metres").make(world, np.random.SeedSequence(0))
     assert made.planner.explorer.by == "metres"
+
+
+def test_lengths_that_are_told_say_where_places_lie_that_nobody_entered() -> None:
+    """Ways of several places that lead to one are known to do so, before anybody was there."""
+    world = ListedWays(grid(4, 5, sights="distinct", pose="lengths"))
+    observation, info = world.reset(seed=1)
+    agent, chart = agent_of(world), world.unwrapped.chart
+    start, entered = np.array(chart.positions[info["place"]]), [info["place"]]
+    for _ in range(6):
+        observation, _, _, _, info = world.step(agent.step(observation))
+        entered.append(info["place"])
+    agent.perceive(observation)
+    ahead = {place for at in entered for place in chart.successors(at).values()} - {*entered}
+    known = [place for place in agent.map.places if place not in agent.map.visited_places]
+    mine = np.array([agent.map.position(place)[:2] for place in known])
+    true = np.array([chart.positions[place] for place in ahead]) - start
+    assert len(mine) == len(true)
+    assert np.linalg.norm(mine[:, None] - true, axis=2).min(axis=1).max() < 0.2
+
+
+@pytest.mark.parametrize("lengths", [1.0, [1.0], {"up": 1.0}, [0.0, -1.0, 0.0]])
+def test_lengths_that_are_none_are_refused(lengths: Any) -> None:
+    with pytest.raises(CogmapError, match="'lengths'"):
+        Agent({"stay": (0,), "left": (-1,), "right": (1,)}).step({"sight": 0, "open": [True] * 3, "lengths": lengths})
 
 
 def test_a_cost_that_is_none_is_refused() -> None:

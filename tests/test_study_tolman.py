@@ -145,7 +145,7 @@ def test_bad_values_are_refused_in_one_line() -> None:
     with pytest.raises(CogmapError, match="tolman: runs is 0"):
         replace(STUDY, runs=0)
     with pytest.raises(CogmapError, match="information_weight"):
-        replace(STUDY, knob=(-1.0,)).rows(1)
+        replace(SMALL, knob=(-1.0,)).rows(1)
 
 
 @pytest.mark.study

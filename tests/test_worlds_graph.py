@@ -121,17 +121,18 @@ def test_what_is_told_of_a_pose_is_an_option() -> None:
     graph = street(5, 0)
     keys = {
         pose: set(GraphWorld.from_networkx(graph, pose=pose).reset(seed=0)[0])
-        for pose in ("displacement", "bearing", "none")
+        for pose in ("displacement", "lengths", "bearing", "none")
     }
     assert keys == {
         "displacement": {"sight", "ways", "bearings", "displacement"},
+        "lengths": {"sight", "ways", "bearings", "displacement", "lengths"},
         "bearing": {"sight", "ways", "bearings"},
         "none": {"sight", "ways"},
     }
     numbered = GraphWorld.from_networkx(graph, pose="none")
     assert all(list(numbered.chart.exits(place)) == ["stay", *range(graph.out_degree(place))] for place in graph)
     assert numbered.chart.positions is not None
-    with pytest.raises(WorldError, match="pose 'motions' is not known; use one of displacement, bearing, none"):
+    with pytest.raises(WorldError, match="pose 'motions' is not known; use one of displacement, lengths, bearing"):
         GraphWorld.from_networkx(graph, pose="motions")
     with pytest.raises(WorldError, match="unknown pose 'lattice'"):
         GraphWorld.from_networkx(graph, pose="lattice")

@@ -1,7 +1,5 @@
 """What the plots share: axes without global state, cells of a grid, text that fits, legends."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypedDict
 
@@ -9,7 +7,10 @@ from ..model import CogmapError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Figure
     from matplotlib.text import Text
+else:  # imported when something is drawn
+    Axes = Figure = Text = Any
 
 Cell = tuple[float, float]
 """Row and column."""
@@ -24,7 +25,7 @@ class Where(TypedDict, total=False):
 
 def axes_or_new(*, size: tuple[float, float] = (6.0, 5.0), title: str | None = None, ax: Axes | None = None) -> Axes:
     """`ax`, or the axes of a new figure of `size` inches that belongs to no window, with the title."""
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure as Figure
 
     ax = Figure(figsize=size, layout="constrained").add_subplot() if ax is None else ax
     if title is not None:
@@ -88,11 +89,7 @@ def legend_below(ax: Axes, *, columns: int = 3) -> None:
 
 
 def flat(position: Sequence[float]) -> Cell:
-    """A position in Z or Z² as row and column.
-
-    Raises:
-        CogmapError: it has another number of dimensions.
-    """
+    """A position in Z or Z² as row and column. Raises CogmapError: it has another number of dimensions."""
     if len(position) not in (1, 2):
         raise CogmapError(f"plot: position {tuple(position)} has {len(position)} dimensions; only 1 or 2 can be drawn")
     return float(position[0]) if len(position) == 2 else 0.0, float(position[-1])

@@ -1,26 +1,20 @@
 """Where the agent believes to be: as bars, and on its map."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..inference import Belief
 from ..model import CogmapError, CognitiveMap
 from ..worlds import Chart
-from .axes import Where, axes_or_new, write_in
+from .axes import Axes, Where, axes_or_new, write_in
 from .map_picture import MapPicture
 from .map_plot import draw_map, underlay
 from .picture import RADIUS
 from .theme import SKY, VERMILION, theme_of
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-Places = Belief | Mapping[int, float]
-"""Q(s) by number of the place: a belief, or the `places` of a step's record."""
+Places = Belief | Mapping[int, float]  # Q(s) by number of the place: a belief, or the `places` of a step's record
 
 TRUE, OTHER = VERMILION, SKY
 HALO = 0.34  # radius of the disc behind a place, cells

@@ -1,7 +1,5 @@
 """The explanation of the last choice of an agent."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import replace
 

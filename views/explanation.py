@@ -1,7 +1,5 @@
 """Why the agent did what it did, as numbers and in words."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import asdict, dataclass, replace
 from functools import partial
@@ -131,11 +129,7 @@ class Explanation:
         return f"<div>{head}{self._table().html()}<p>why not</p><ul>{items}</ul>{foot}</div>"
 
     def to_dict(self) -> dict[str, Any]:
-        """The explanation as plain JSON values.
-
-        Raises:
-            CogmapError: a label cannot be written as JSON.
-        """
+        """The explanation as plain JSON values. Raises CogmapError: a label cannot be written as JSON."""
         values, of_term = asdict(replace(self, terms=())), ("name", "label", "sign", "kind")
         values["terms"] = [{name: getattr(term, name) for name in of_term} for term in self.terms]
         json = partial(encode, where="explain")

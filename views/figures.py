@@ -1,19 +1,15 @@
 """Whole figures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..model import CognitiveMap
 from ..worlds import Chart
+from .axes import Figure
 from .map_plot import plot_map
 from .scene_plot import Scene, plot_scene
 from .time_plots import Trace, plot_expected_free_energy, plot_free_energy
 from .world_plot import plot_world, world_picture
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 WIDTH = 5.5  # of a plot, inches
 

@@ -1,7 +1,5 @@
 """Text that is as large as its box allows, whatever becomes of the figure. Import it where matplotlib is wanted."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from matplotlib.text import Text

@@ -1,7 +1,5 @@
 """Where the variables and factors of a graph are drawn: along time where they have one, or well apart."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

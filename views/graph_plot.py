@@ -1,20 +1,15 @@
 """The factor graph of a window, laid out in time as partially observed Markov decision processes usually are."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..model import CogmapError, Factor, FactorGraph, Variable
-from .axes import Where, axes_or_new, without_ticks, write_in
+from .axes import Axes, Where, axes_or_new, without_ticks, write_in
 from .graph_layout import layout_of
 from .layout import Point
 from .theme import SKY, ink_on, mixed, theme_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 RADIUS = 0.17  # of a variable
 HALF = 0.05  # of the side of a factor

@@ -1,7 +1,5 @@
 """The map as it grows, frame by frame."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -9,20 +7,16 @@ from functools import partial
 from itertools import islice, takewhile
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..agent import Agent
 from ..model import CogmapError, GrowthEvent, make_folder, write_through
 from ..worlds import Chart
-from .axes import Cell, axes_or_new
+from .axes import Axes, Cell, Figure, axes_or_new
 from .map_picture import MapPicture
 from .map_plot import draw_map, underlay
 from .picture import RADIUS
 from .theme import VERMILION, theme_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 HERE = RADIUS + 0.08  # radius of the ring around the place where the agent believes to be
 PIXELS = 100  # an inch

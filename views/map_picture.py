@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..model import BLOCKED, OPEN, CognitiveMap, Domain, Motions, decode
+from ..model import BLOCKED, OPEN, CognitiveMap, Domain, Ints, Motions, decode
 from .axes import Cell, flat
 from .layout import spread
 from .picture import Picture
@@ -17,7 +16,6 @@ from .picture import Picture
 if TYPE_CHECKING:
     import networkx as nx
 
-Ints = NDArray[np.int64]
 
 NOTICEABLE = 5e-4  # by how much a probability differs from the one told last before it is told again
 LEAST = 0.05  # transitions that are less probable are not drawn

@@ -1,20 +1,15 @@
 """What the agent believes the world to be."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 from ..model import CogmapError, CognitiveMap
 from ..worlds import Chart
-from .axes import Cell, Where, as_grid, axes_or_new, flat
+from .axes import Axes, Cell, Where, as_grid, axes_or_new, flat
 from .map_picture import MapPicture
 from .picture import Picture, draw_picture
 from .theme import theme_of
 from .world_plot import as_place, world_picture
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 Beneath = tuple[Picture | None, Cell]
 

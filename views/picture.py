@@ -1,21 +1,15 @@
 """A map, the true one or the one believed, as a picture of places and of the ways between them."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .axes import Cell, cell_points, write_in
+from ..model import Floats
+from .axes import Axes, Cell, cell_points, write_in
 from .theme import Theme, ink_on, mixed, sight_colour, theme_of
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-Floats = NDArray[np.float64]
 Node = Any
 
 RADIUS = 0.24  # of a place, cells

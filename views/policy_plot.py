@@ -1,22 +1,17 @@
 """Where the agent imagines to go."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..model import CogmapError, CognitiveMap
 from ..planning import Plan
-from .axes import Cell, Where, as_grid, axes_or_new, cell_points, flat
+from .axes import Axes, Cell, Where, as_grid, axes_or_new, cell_points, flat
 from .map_picture import MapPicture
 from .theme import BLUE, RGB, SKY, Theme, contrast, mixed, theme_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 LEAST = 0.01  # ways that are less probable are not drawn
 PALEST = 0.85  # how much of the ground is in the least probable way; none is in the most probable one

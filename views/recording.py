@@ -155,11 +155,7 @@ class Recorder:
         return self._places.setdefault(place, len(self._places))
 
     def recording(self) -> Recording:
-        """All that was recorded so far.
-
-        Raises:
-            CogmapError: nothing was.
-        """
+        """All that was recorded so far. Raises CogmapError: nothing was."""
         if self._agent is None or not self._frames:
             raise CogmapError("recorder: nothing was recorded; call add after agent.step")
         map_, motions = self._agent.map, self._agent.map.motions

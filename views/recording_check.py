@@ -1,7 +1,5 @@
 """What a recording has to look like, so that no page fails on it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Recordings on disk: JSON, packed where the name ends in .gz, whole or not at all; earlier schemas in this one."""
 
-from __future__ import annotations
-
 import gzip
 import json
 import zlib

@@ -1,7 +1,5 @@
 """What a recording says of the world, of a step's plan, and of the factor graph of its window, as JSON values."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,33 +1,25 @@
 """A world as it looks from above, with a path walked through its tiles."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..model import CogmapError
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from .axes import Axes
 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
     """What is seen from above.
 
-    Attributes:
-        image: `[height, width, 3]` RGB.
-        path: `[n, 2]` x and y of each step, in pixels.
-
     Raises:
         CogmapError: the arrays have other shapes.
     """
 
-    image: NDArray[np.uint8]
-    path: NDArray[np.float64]
+    image: NDArray[np.uint8]  # `[height, width, 3]` RGB
+    path: NDArray[np.float64]  # `[n, 2]` x and y of each step, in pixels
 
     def __post_init__(self) -> None:
         if self.image.ndim != 3 or self.image.shape[2] != 3:

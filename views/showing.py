@@ -1,7 +1,5 @@
 """A recorded walk inside of a notebook."""
 
-from __future__ import annotations
-
 import html
 from dataclasses import dataclass
 
@@ -12,15 +10,10 @@ from .replay import replay_html
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A page in a frame of its own: it can reach nothing of the notebook around it.
+    """A page in a frame of its own: it can reach nothing of the notebook around it."""
 
-    Attributes:
-        page: the page, as `replay_html` makes it.
-        height: of the frame, in pixels.
-    """
-
-    page: str
-    height: int
+    page: str  # the page, as `replay_html` makes it
+    height: int  # of the frame, in pixels
 
     def _repr_html_(self) -> str:
         text = html.escape(self.page, quote=True).replace("\n", "&#10;")  # whoever joins our lines leaves its own

@@ -1,7 +1,5 @@
 """Which sensor spoke for what, and what was expected of it."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import dataclass
 

@@ -1,19 +1,14 @@
 """What the best policies are worth, term by term; terms are drawn and told as each says of itself."""
 
-from __future__ import annotations
-
 from itertools import groupby
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..model import CogmapError
 from ..planning import Plan, Term
-from .axes import Where, axes_or_new, legend_below
+from .axes import Axes, Where, axes_or_new, legend_below
 from .theme import Theme, theme_of
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 NOTHING = 1e-6  # nats; a term that is smaller in all that is shown is left out
 LONGEST = 34  # signs of a policy's name

@@ -1,15 +1,10 @@
 """Colours of sights and of lines, told apart with any colour vision, and what can be read on which ground."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from ..worlds import label_colour
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from .axes import Axes
 
 RGB = tuple[float, float, float]
 

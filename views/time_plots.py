@@ -1,24 +1,17 @@
 """What the trace of an agent tells over time: certainty, surprise, free energy, expected free energy."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..agent import StepRecord
 from ..model import CogmapError
-from .axes import Where, axes_or_new, legend_below
+from .axes import Axes, Where, axes_or_new, legend_below
 from .terms_plot import NOTHING, line_look, signed_label
 from .theme import BLUE, ORANGE, SKY, VERMILION, theme_of
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-Trace = Sequence[StepRecord]
-"""The agent's records, one a step: `agent.trace`."""
-
+Trace = Sequence[StepRecord]  # the agent's records, one a step: `agent.trace`
 MOVED = 0.5  # P(moved_t) from which a step is marked
 FEW = 60  # steps that have a dot each
 

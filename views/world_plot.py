@@ -1,21 +1,16 @@
 """A world, and the way somebody took through it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..model import CogmapError
 from ..worlds import Chart, Place
-from .axes import Cell, Where, as_grid, axes_or_new, cell_points
+from .axes import Axes, Cell, Where, as_grid, axes_or_new, cell_points
 from .layout import spread
 from .picture import Floats, Picture, draw_picture
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 LANE = 0.09  # to the right of the middle, so that there and back are two lines
 

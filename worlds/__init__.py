@@ -1,7 +1,5 @@
 """Where an agent lives: room mazes and graphs as Gymnasium environments, noise in them, and oracles."""
 
-from __future__ import annotations
-
 from . import minigrid
 from .base import PlaceEnv
 from .behaviour import behaviour, distinguishable

@@ -1,7 +1,5 @@
 """One agent among the places of a chart: what mazes and graphs have in common."""
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Mapping
 from typing import Any, ClassVar
@@ -56,11 +54,7 @@ class PlaceEnv(gym.Env[Observation, Action]):
 
     @property
     def maze(self) -> Maze:
-        """The maze, where the chart is one.
-
-        Raises:
-            WorldError: it is none.
-        """
+        """The maze, where the chart is one. Raises WorldError: it is none."""
         if not isinstance(self.chart, Maze):
             raise NoMazeError(f"{self.chart.name!r} is no maze, and a maze is needed here; give one")
         return self.chart
@@ -126,11 +120,7 @@ class PlaceEnv(gym.Env[Observation, Action]):
         return self.observe(), 0.0, False, False, {self.truth: self._place, **told}
 
     def observe(self) -> Observation:
-        """What the agent senses now, without acting.
-
-        Raises:
-            WorldError: the world was never reset.
-        """
+        """What the agent senses now, without acting. Raises WorldError: the world was never reset."""
         return self.sense(self.place, self._closures.exits(self.place))
 
     def displace(self, place: Place) -> Observation:
@@ -155,27 +145,15 @@ class PlaceEnv(gym.Env[Observation, Action]):
         self._closures.rooms.add(found)
 
     def open_room(self, room: Place) -> None:
-        """Open `room` again; doors closed by themselves stay closed.
-
-        Raises:
-            WorldError: no such room.
-        """
+        """Open `room` again; doors closed by themselves stay closed. Raises WorldError: no such room."""
         self._closures.rooms.discard(self.chart.find(room))
 
     def close_door(self, a: Place, b: Place) -> None:
-        """Close the door between rooms `a` and `b`, both ways.
-
-        Raises:
-            WorldError: no such door.
-        """
+        """Close the door between rooms `a` and `b`, both ways. Raises WorldError: no such door."""
         self._closures.doors.add(self._closures.door(a, b))
 
     def open_door(self, a: Place, b: Place) -> None:
-        """Open the door between rooms `a` and `b` again.
-
-        Raises:
-            WorldError: no such door.
-        """
+        """Open the door between rooms `a` and `b` again. Raises WorldError: no such door."""
         self._closures.doors.discard(self._closures.door(a, b))
 
     def _way(self, action: Any, ways: tuple[Any, ...]) -> Any:

@@ -1,7 +1,5 @@
 """Which places behave alike, so that no agent that is not told positions can tell them apart."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from .protocol import Chart

@@ -1,7 +1,5 @@
 """The eight mazes of the paper."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from types import MappingProxyType
 

@@ -1,7 +1,5 @@
 """Which rooms and doors of a world are closed at present."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from .errors import WorldError
@@ -42,11 +40,7 @@ class Closures:
         return place
 
     def door(self, a: Any, b: Any) -> Door:
-        """The door between two rooms, in order.
-
-        Raises:
-            WorldError: no such rooms, or no door between them.
-        """
+        """The door between two rooms, in order. Raises WorldError: no such rooms, or no door between them."""
         pair = self._chart.find(a), self._chart.find(b)
         first, second = in_order(pair)
         joined = second in self._chart.exits(first).values() or first in self._chart.exits(second).values()

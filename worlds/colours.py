@@ -1,7 +1,5 @@
 """The colour of a label, wherever it is drawn."""
 
-from __future__ import annotations
-
 import operator
 import zlib
 from collections.abc import Hashable

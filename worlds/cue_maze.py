@@ -61,11 +61,7 @@ class CueMaze(gym.Env[Observation, Any]):
         return self._sensed(), self._info()
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """Go there, if one can; the trial ends after so many moves.
-
-        Raises:
-            WorldError: no such action.
-        """
+        """Go there, if one can; the trial ends after so many moves. Raises WorldError: no such action."""
         if action not in range(len(self.motions.names)):
             raise WorldError(f"no action {action!r}; use 0 to 4 ({', '.join(self.motions.names)})")
         name = self.motions.names[int(action)]

@@ -1,7 +1,5 @@
 """A maze as an image, with numpy alone."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 import numpy as np

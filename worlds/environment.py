@@ -1,7 +1,5 @@
 """A maze to live in, as a Gymnasium environment."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """Families of mazes of any size. Corridors keep an empty cell apart, as all adjacent rooms share a door."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np
@@ -122,11 +120,7 @@ def _furnish(name: str, rooms: Iterable[tuple[int, ...]], sights: int | None, rn
 
 
 def at_least(family: str, **sizes: tuple[int, int]) -> None:
-    """Refuse sizes that are too small: each is given with the least it may be.
-
-    Raises:
-        WorldError: one is.
-    """
+    """Refuse sizes that are too small: each is given with the least it may be. Raises WorldError: one is."""
     for what, (size, least) in sizes.items():
         if size < least:
             raise WorldError(f"{family}: {what} is {size}; use at least {least}")

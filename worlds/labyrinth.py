@@ -1,7 +1,5 @@
 """Random mazes of any size, from a tree of corridors to an open hall."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

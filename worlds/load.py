@@ -1,7 +1,5 @@
 """Worlds by name or from a file, and their Gymnasium ids."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -30,7 +28,7 @@ def load_world(
     sights: Sights | None = None,
     seed: int = 0,
     sensors: Sequence[str] | None = None,
-    pose: Literal["motions", "displacement", "bearing", "none"] | None = None,
+    pose: Literal["motions", "displacement", "lengths", "bearing", "none"] | None = None,
     strong: bool = True,
 ) -> PlaceEnv:
     """The world of a built-in name, or else of a maze or graph file: a `MazeEnv` or a `GraphWorld`.
@@ -67,11 +65,7 @@ def load_world(
 
 
 def world_of(chart: Chart) -> PlaceEnv:
-    """A world whose true map is `chart`.
-
-    Raises:
-        WorldError: neither a `Maze` nor a `Layout`.
-    """
+    """A world whose true map is `chart`. Raises WorldError: neither a `Maze` nor a `Layout`."""
     if isinstance(chart, Maze):
         return MazeEnv(chart)
     if isinstance(chart, Layout):

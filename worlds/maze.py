@@ -30,21 +30,16 @@ if TYPE_CHECKING:
 class Maze:
     """An immutable maze.
 
-    Attributes:
-        name: what the maze is called in results and errors.
-        sights: the label seen in each room, by (row, column); all whole numbers >= 0 or all words.
-        walls: the pairs of adjacent rooms that have no door, in row-major order.
-        rooms: the rooms in row-major order.
-
     Raises:
         WorldError: no rooms, rooms that cannot be reached from one another (`UnreachableError`), bad positions or
             labels, walls that are not between adjacent rooms.
     """
 
-    name: str
+    name: str  # what the maze is called in results and errors
+    # the label seen in each room, by (row, column); all whole numbers >= 0 or all words
     sights: Mapping[Position, Label]
-    walls: frozenset[Door] = frozenset()
-    rooms: tuple[Position, ...] = field(init=False, repr=False, compare=False)
+    walls: frozenset[Door] = frozenset()  # the pairs of adjacent rooms that have no door, in row-major order
+    rooms: tuple[Position, ...] = field(init=False, repr=False, compare=False)  # the rooms in row-major order
 
     def __post_init__(self) -> None:
         if not self.sights:
@@ -79,11 +74,7 @@ class Maze:
         return {(row, column): (float(column), -float(row)) for row, column in self.rooms}
 
     def find(self, place: Any) -> Position:
-        """`place` as a room of this maze.
-
-        Raises:
-            WorldError: no such room.
-        """
+        """`place` as a room of this maze. Raises WorldError: no such room."""
         try:
             row, column = place
             room = (int(row), int(column))
@@ -94,11 +85,7 @@ class Maze:
         return room
 
     def exits(self, place: Position) -> dict[str, Position | None]:
-        """The room that each action leads to; None where a wall is.
-
-        Raises:
-            WorldError: there is no such room.
-        """
+        """The room that each action leads to; None where a wall is. Raises WorldError: there is no such room."""
         if place not in self.sights:
             raise WorldError(f"maze {self.name!r} has no room at {place}; see maze.rooms")
         row, column = place
@@ -109,11 +96,7 @@ class Maze:
         return found
 
     def successors(self, place: Position) -> dict[str, Position]:
-        """The room that each action leads to; walls lead back.
-
-        Raises:
-            WorldError: there is no such room.
-        """
+        """The room that each action leads to; walls lead back. Raises WorldError: there is no such room."""
         return {name: place if room is None else room for name, room in self.exits(place).items()}
 
     def length(self, place: Position, way: str) -> float:

@@ -1,7 +1,5 @@
 """A maze as SVG, for notebooks."""
 
-from __future__ import annotations
-
 import html
 import re
 from collections.abc import Iterable, Mapping
@@ -10,8 +8,7 @@ from .colours import label_colour
 from .maze_checks import Door, Label, Position
 
 CELL = 40  # pixels a room
-LARGEST = 1_000
-"""Rooms of a maze that is drawn in a notebook."""
+LARGEST = 1_000  # rooms of a maze that is drawn in a notebook
 
 _NOT_XML = re.compile("[^\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _MOST = 6  # signs of a label that fit into a room

@@ -1,26 +1,19 @@
 """The moves a world offers, as plain data."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
 class Motions:
-    """Named actions.
+    """Named actions."""
 
-    Attributes:
-        names: action names, in the order of the action indices; of a world whose ways belong to the place, those
-            that every place has.
-        displacements: one vector of `n` integers an action; empty where none are declared.
-        reverse: the index of the action that undoes each; empty where nobody says so.
-        local: whether ways belong to the place, so that each observation lists those that are there.
-    """
-
+    # action names, in the order of the action indices; of a world whose ways belong to the place, those that
+    # every place has
     names: tuple[str, ...]
+    # one vector of `n` integers an action; empty where none are declared
     displacements: tuple[tuple[int, ...], ...] = ()
-    reverse: tuple[int, ...] = ()
-    local: bool = False
+    reverse: tuple[int, ...] = ()  # the index of the action that undoes each; empty where nobody says so
+    local: bool = False  # whether ways belong to the place, so that each observation lists those that are there
 
 
 GRID = Motions(

@@ -20,7 +20,7 @@ NOISES: Mapping[str, float] = MappingProxyType(
 )
 """The kinds of noise, and the most that each may be."""
 
-_NO_SENSORS = ("open", "ways", "bearings", "displacement")
+_NO_SENSORS = ("open", "ways", "bearings", "lengths", "displacement")
 
 
 class NoisyWorld(gym.Wrapper[Observation, Any, Observation, Any]):

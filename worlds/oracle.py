@@ -1,7 +1,5 @@
 """How few steps would do: exactly where that can be had, else the best tour found, and what nearest frontier takes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -14,15 +14,10 @@ from .protocol import Chart, Place
 
 @dataclass(frozen=True, eq=False)
 class ChartPart:
-    """Some places of a chart and the ways among them; ways to others are none. Itself a chart.
+    """Some places of a chart and the ways among them; ways to others are none. Itself a chart."""
 
-    Attributes:
-        whole: the chart.
-        places: those of the part, in the order in which they were given.
-    """
-
-    whole: Chart
-    places: tuple[Place, ...]
+    whole: Chart  # the chart
+    places: tuple[Place, ...]  # those of the part, in the order in which they were given
 
     @classmethod
     def around(cls, whole: Chart, walked: Iterable[Place]) -> ChartPart:

@@ -1,7 +1,5 @@
 """What a world is, and what else it may offer, as protocols: each use asks for no more than it needs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any, Protocol, TypeVar, runtime_checkable
 
@@ -148,11 +146,7 @@ def offered(world: Any, kind: type[Offer], what: str) -> Offer:
 
 
 def place_of(info: Mapping[str, Any]) -> Place:
-    """The true place of the agent in the `info` of a step.
-
-    Raises:
-        WorldError: it is not told.
-    """
+    """The true place of the agent in the `info` of a step. Raises WorldError: it is not told."""
     for key in ("place", "position"):
         if key in info:
             return info[key]

@@ -1,7 +1,5 @@
 """Shortest ways among the places of a chart."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Callable, Collection, Sequence
 from itertools import pairwise

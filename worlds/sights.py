@@ -1,15 +1,12 @@
 """Sights for places that have none of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Hashable, Sequence
 
 import numpy as np
 
 from .errors import WorldError
 
-Sights = int | str
-"""`"distinct"`, each place its own; `"ways"`, the number of ways; or K, one of K at random."""
+Sights = int | str  # `"distinct"`, each place its own; `"ways"`, the number of ways; or K, one of K at random
 
 
 def give_sights(

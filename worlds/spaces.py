@@ -1,7 +1,5 @@
 """Spaces of what is observed that Gymnasium has none for."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable
 from typing import Any
 
@@ -41,31 +39,31 @@ class PerWay(spaces.Space[dict[Any, Any]]):
 
     Args:
         labels: all labels that ways have anywhere.
-        degrees: whether the values are bearings; else they are True, False or None (not looked at).
+        numbers: whether the values are bearings or lengths; else they are True, False or None (not looked at).
     """
 
-    def __init__(self, labels: Iterable[Hashable], *, degrees: bool = False) -> None:
+    def __init__(self, labels: Iterable[Hashable], *, numbers: bool = False) -> None:
         super().__init__()
         self.labels = frozenset(labels)
-        self.degrees = degrees
+        self.numbers = numbers
 
     def sample(self, mask: Any = None, probability: Any = None) -> dict[Any, Any]:
         """Some of the labels with values drawn evenly."""
         chosen = [label for label in sorted(self.labels, key=repr) if self.np_random.random() < 0.5]
         drawn = self.np_random.uniform(0.0, 360.0, size=len(chosen)).tolist()
-        return {label: value if self.degrees else value < 180.0 for label, value in zip(chosen, drawn, strict=True)}
+        return {label: value if self.numbers else value < 180.0 for label, value in zip(chosen, drawn, strict=True)}
 
     def contains(self, x: Any) -> bool:
         """Whether `x` has values for labels of ways alone."""
         if not isinstance(x, dict) or not self.labels.issuperset(x):
             return False
-        if self.degrees:
+        if self.numbers:
             return all(isinstance(value, float) and np.isfinite(value) for value in x.values())
         return all(value is None or isinstance(value, bool) for value in x.values())
 
 
 class PerAction(spaces.Space[tuple[float | None, ...]]):
-    """A bearing for each action, None where it has no way.
+    """A bearing, or a length, for each action, None where it has no way.
 
     Args:
         actions: how many there are.
@@ -76,7 +74,7 @@ class PerAction(spaces.Space[tuple[float | None, ...]]):
         self.actions = actions
 
     def sample(self, mask: Any = None, probability: Any = None) -> tuple[float | None, ...]:
-        """Bearings drawn evenly for some of the actions."""
+        """Numbers drawn evenly for some of the actions."""
         drawn = self.np_random.uniform(0.0, 720.0, size=self.actions).tolist()
         return tuple(value if value < 360.0 else None for value in drawn)
 

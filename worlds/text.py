@@ -8,8 +8,6 @@ labels has a wall wherever dashes stand:
     attic den    den
 """
 
-from __future__ import annotations
-
 import os
 import re
 import stat
@@ -20,8 +18,7 @@ from .errors import WorldError
 from .maze import Maze
 from .maze_checks import LARGEST_LABEL, Door, Label, Position, UnreachableError
 
-LARGEST = 128 * 2**20
-"""Bytes of the largest text that is read."""
+LARGEST = 128 * 2**20  # bytes of the largest text that is read
 
 EMPTY = frozenset({".", "-1"})
 _NUMBER = re.compile(r"[0-9]+")
@@ -186,11 +183,7 @@ class _Layout:
 
 
 def check_label(label: str, where: str) -> None:
-    """Refuse a label that means something else, or cannot be printed.
-
-    Raises:
-        WorldError: it is one.
-    """
+    """Refuse a label that means something else, or cannot be printed. Raises WorldError: it is one."""
     if _NEGATIVE.fullmatch(label) and label != "-1":
         raise WorldError(f"{where}: label {label} is negative; labels count from 0, -1 means no room")
     if not label.isprintable():

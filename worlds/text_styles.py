@@ -1,7 +1,5 @@
 """Mazes in files, in each of the ways that people write them."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Callable, Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """An open path over all places of a weighted graph, made short by local search on the distances between them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np

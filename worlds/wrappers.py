@@ -1,7 +1,5 @@
 """Other environments as worlds, and worlds in which less is sensed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -14,6 +12,9 @@ from .generate import at_least
 from .motions import Motions
 from .protocol import HasChart, Observation, World, offered
 from .spaces import PerAction
+
+_LISTED = ("bearings", "lengths")
+"""What is told of each way."""
 
 
 class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):
@@ -47,7 +48,8 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
     """A world whose ways belong to the place, for agents whose actions are those of the whole world.
 
     Action 0 stays, action i takes the i-th way that is listed; a place with fewer ways has the others shut.
-    Observations have `open` instead of `ways`, and `bearings`, where they are told, list one an action, None of no way.
+    Observations have `open` instead of `ways`; `bearings` and `lengths`, where they are told, list one an action,
+    None of no way.
 
     Args:
         world: its `motions.local` is true.
@@ -65,9 +67,9 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
         self.motions = Motions(("stay", *(f"way {i}" for i in range(1, most))))
         self.action_space = spaces.Discrete(most)
         inner: Any = world.observation_space
-        sensed = {key: space for key, space in inner.spaces.items() if key not in ("ways", "bearings")}
+        sensed = {key: space for key, space in inner.spaces.items() if key not in ("ways", *_LISTED)}
         self._sensed = {*sensed}
-        told: dict[str, spaces.Space[Any]] = {"bearings": PerAction(most)} if "bearings" in inner.spaces else {}
+        told: dict[str, spaces.Space[Any]] = {key: PerAction(most) for key in _LISTED if key in inner.spaces}
         self.observation_space = spaces.Dict({**sensed, **told, "open": spaces.MultiBinary(most)})
 
     def reset(
@@ -95,9 +97,10 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
         ways = [True, *map(bool, observation["ways"].values())]
         none = len(self.motions.names) - len(ways)
         seen["open"] = np.array(ways + [False] * none)
-        if "bearings" in observation:
-            told = observation["bearings"]
-            seen["bearings"] = (None, *(told.get(way) for way in observation["ways"]), *(None,) * none)
+        for key in _LISTED:
+            if key in observation:
+                told = observation[key]
+                seen[key] = (None, *(told.get(way) for way in observation["ways"]), *(None,) * none)
         return seen
 
 

@@ -1,7 +1,5 @@
 """The clone-structured cognitive graph (George et al. 2021), from its mathematics up to an agent."""
 
-from __future__ import annotations
-
 from .agent import CscgAgent
 from .bridging import Bridge, Roads, bridge
 from .inference import Posterior, filtered, followed, log_likelihood, posterior

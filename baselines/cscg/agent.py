@@ -1,7 +1,5 @@
 """The clone-structured cognitive graph as an agent."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Bridge planning: the most probable walk from a belief to a target (max-product over states and actions)."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,28 +13,18 @@ from .sequence import Ints, distinct
 
 @dataclass(frozen=True, slots=True)
 class Bridge:
-    """A walk through the model.
+    """A walk through the model."""
 
-    Attributes:
-        actions: the n actions, in order; none where the walk begins on a target.
-        states: the n + 1 states it leads through, the first one drawn from the belief.
-        log_probability: log belief(first state) + sum of log P(next | state, action), nats.
-    """
-
-    actions: tuple[int, ...]
-    states: tuple[int, ...]
-    log_probability: float
+    actions: tuple[int, ...]  # the n actions, in order; none where the walk begins on a target
+    states: tuple[int, ...]  # the n + 1 states it leads through, the first one drawn from the belief
+    log_probability: float  # log belief(first state) + sum of log P(next | state, action), nats
 
 
 @dataclass(frozen=True)
 class Roads:
-    """The best action between any two states of a model, kept by blocks; make it once a model.
+    """The best action between any two states of a model, kept by blocks; make it once a model."""
 
-    Attributes:
-        model: the model.
-    """
-
-    model: CloneModel
+    model: CloneModel  # the model
 
     @cached_property
     def ends(self) -> Ints:

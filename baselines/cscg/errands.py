@@ -1,7 +1,5 @@
 """Where a CSCG agent goes next."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where the walk led: posterior marginals, pairs, evidence, and the belief about now."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,17 +11,11 @@ from .sequence import Walk
 
 @dataclass(frozen=True, slots=True)
 class Posterior:
-    """What is believed about every step of a walk, given all of it.
+    """What is believed about every step of a walk, given all of it."""
 
-    Attributes:
-        marginals: `[T, c]` P(clone at t | walk), of the clones of the sight seen at t.
-        pairs: `[T - 1, c, c]` P(clone at t, clone at t + 1 | walk).
-        log_likelihood: log P(sights | actions), nats.
-    """
-
-    marginals: Floats
-    pairs: Floats
-    log_likelihood: float
+    marginals: Floats  # `[T, c]` P(clone at t | walk), of the clones of the sight seen at t
+    pairs: Floats  # `[T - 1, c, c]` P(clone at t, clone at t + 1 | walk)
+    log_likelihood: float  # log P(sights | actions), nats
 
 
 def posterior(model: CloneModel, walk: Walk) -> Posterior:

@@ -1,7 +1,5 @@
 """Learning the counts of a walk by expectation maximisation (Baum et al. 1970)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,8 +8,7 @@ from .messages import Messages
 from .model import CloneModel, Floats
 from .sequence import Ints, Walk
 
-PIECE = 8
-"""Steps of one triple that are summed in one product."""
+PIECE = 8  # steps of one triple that are summed in one product
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,18 +17,12 @@ class Fit:
 
     With n iterations made, entry i belongs to the model before iteration i + 1, so the last one is that of the model
     before the one returned.
-
-    Attributes:
-        model: with the expected counts of the walk as its counts.
-        log_likelihood: `[n]` log P(sights | actions), nats.
-        objective: `[n]` log_likelihood + `log_prior`: what each iteration raises or leaves.
-        converged: whether the tolerance stopped it.
     """
 
-    model: CloneModel
-    log_likelihood: Floats
-    objective: Floats
-    converged: bool
+    model: CloneModel  # with the expected counts of the walk as its counts
+    log_likelihood: Floats  # `[n]` log P(sights | actions), nats
+    objective: Floats  # `[n]` log_likelihood + `log_prior`: what each iteration raises or leaves
+    converged: bool  # whether the tolerance stopped it
 
 
 def log_prior(model: CloneModel) -> float:

@@ -1,18 +1,13 @@
 """Forward and backward messages along a walk, by a tree of products rather than step by step."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
 
 from .model import Floats
 
-SAFE = 1e-6
-"""With pseudocounts from here on, a product of 16 blocks cannot vanish."""
-
-CHAIN = 12
-"""So many products and fewer are run through one by one: safe without rescaling, too."""
+SAFE = 1e-6  # with pseudocounts from here on, a product of 16 blocks cannot vanish
+CHAIN = 12  # so many products and fewer are run through one by one: safe without rescaling, too
 
 
 class Messages:

@@ -24,22 +24,14 @@ class CloneModel:
         P(next | state, action) = (C + kappa) / (sum C + kappa * S),
 
     and 1/S where that is 0/0. Outside the triples C is zero.
-
-    Attributes:
-        observations: how many sights there can be.
-        clones: clones a sight, c.
-        actions: how many actions there are, K.
-        triples: the N (sight, action, next sight) with a block.
-        counts: `[N, c, c]` C[triple, clone, next clone].
-        pseudocount: kappa, added to every count.
     """
 
-    observations: int
-    clones: int
-    actions: int
-    triples: Triples
-    counts: Floats
-    pseudocount: float
+    observations: int  # how many sights there can be
+    clones: int  # clones a sight, c
+    actions: int  # how many actions there are, K
+    triples: Triples  # the N (sight, action, next sight) with a block
+    counts: Floats  # `[N, c, c]` C[triple, clone, next clone]
+    pseudocount: float  # kappa, added to every count
 
     @property
     def states(self) -> int:

@@ -1,7 +1,5 @@
 """What a clone-structured model believes about rooms, for an experimenter who knows the true ones."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

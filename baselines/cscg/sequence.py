@@ -16,15 +16,10 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Walk:
-    """A history of sights and the actions between them.
+    """A history of sights and the actions between them."""
 
-    Attributes:
-        sights: `[T]` the index of each sight, T >= 1.
-        actions: `[T - 1]` the index of the action between each two sights.
-    """
-
-    sights: Ints
-    actions: Ints
+    sights: Ints  # `[T]` the index of each sight, T >= 1
+    actions: Ints  # `[T - 1]` the index of the action between each two sights
 
     @classmethod
     def of(cls, sights: Sequence[int] | Ints, actions: Sequence[int] | Ints) -> Walk:
@@ -60,13 +55,9 @@ class Walk:
 
 @dataclass(frozen=True)
 class Triples:
-    """The (sight, action, next sight) that have a block of their own in a model.
+    """The (sight, action, next sight) that have a block of their own in a model."""
 
-    Attributes:
-        rows: `[N, 3]` distinct, in lexicographic order.
-    """
-
-    rows: Ints
+    rows: Ints  # `[N, 3]` distinct, in lexicographic order
 
     def __len__(self) -> int:
         return len(self.rows)

@@ -1,7 +1,5 @@
 """The settings of a CSCG agent."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from math import isfinite
 from typing import Any
@@ -64,21 +62,13 @@ class CscgSettings:
 
 
 def one_of(name: str, value: object, names: tuple[object, ...]) -> None:
-    """Refuse a value that is none of `names`.
-
-    Raises:
-        WorldError: the same.
-    """
+    """Refuse a value that is none of `names`. Raises WorldError: the same."""
     if value not in names:
         raise WorldError(f"{name} of a CSCG agent is one of {', '.join(map(str, names))}; got {value!r}")
 
 
 def whole(name: str, value: Any, *, least: int) -> None:
-    """Refuse what is no whole number of `least` or more.
-
-    Raises:
-        WorldError: the same.
-    """
+    """Refuse what is no whole number of `least` or more. Raises WorldError: the same."""
     if isinstance(value, bool) or not isinstance(value, int) or value < least:
         raise WorldError(f"{name} of a CSCG agent is a whole number of {least} or more; got {value!r}")
 

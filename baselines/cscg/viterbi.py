@@ -1,7 +1,5 @@
 """The most probable path (Viterbi 1967), and training on it alone."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,19 +11,12 @@ from .sequence import Ints, Walk
 
 @dataclass(frozen=True, slots=True)
 class HardFit:
-    """What Viterbi training found.
+    """What Viterbi training found."""
 
-    Attributes:
-        model: with the transitions of the path as its counts.
-        path: `[T]` the most probable states under the model of the last iteration, the ones that were counted.
-        objective: `[n]` log P(path, sights | actions) + `log_prior` before each iteration, nats; never falls.
-        converged: whether it stopped because the path no longer changed.
-    """
-
-    model: CloneModel
-    path: Ints
-    objective: Floats
-    converged: bool
+    model: CloneModel  # with the transitions of the path as its counts
+    path: Ints  # `[T]` the most probable states under the model of the last iteration, the ones that were counted
+    objective: Floats  # `[n]` log P(path, sights | actions) + `log_prior` before each iteration, nats; never falls
+    converged: bool  # whether it stopped because the path no longer changed
 
 
 def most_probable_path(model: CloneModel, walk: Walk) -> tuple[Ints, float]:

@@ -1,7 +1,5 @@
 """Models of choice, a file each."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ...model import CogmapError
@@ -17,11 +15,7 @@ MODELS = {model.name: model for model in (UNIFORM, HABIT, HABIT2, NOVELTY, COGMA
 
 
 def models_named(names: Sequence[str]) -> list[ChoiceModel]:
-    """The models of these names, all where none is given.
-
-    Raises:
-        CogmapError: there is none of that name.
-    """
+    """The models of these names, all where none is given. Raises CogmapError: there is none of that name."""
     if unknown := [name for name in names if name not in MODELS]:
         raise CogmapError(f"no model is called {unknown[0]!r}; choose from {', '.join(MODELS)}")
     return [MODELS[name] for name in dict.fromkeys(names or MODELS)]

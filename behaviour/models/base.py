@@ -1,7 +1,5 @@
 """What a model of choice is: a sum of terms, and lapses."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -9,14 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import CogmapError
+from ...model import CogmapError, Floats
 from ..choices import Choices
 from ..terms import Parameter, Term
 
-Floats = NDArray[np.float64]
-
-LAPSES = (1.5, 5.0)
-"""Of the Beta prior over the lapse rate."""
+LAPSES = (1.5, 5.0)  # of the Beta prior over the lapse rate
 LAPSE = Parameter(
     name="lapse",
     meaning="ε: share of the choices that are made at random",
@@ -39,15 +34,10 @@ class Prepared:
 
 @dataclass(frozen=True)
 class ChoiceModel:
-    """P(way) = (1 - ε) softmax(sum of the terms) + ε / number of ways.
+    """P(way) = (1 - ε) softmax(sum of the terms) + ε / number of ways."""
 
-    Attributes:
-        name: of it.
-        terms: what the log weight of a way is the sum of; without any all ways are alike.
-    """
-
-    name: str
-    terms: tuple[Term, ...] = ()
+    name: str  # of it
+    terms: tuple[Term, ...] = ()  # what the log weight of a way is the sum of; without any all ways are alike
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -74,11 +64,7 @@ class ChoiceModel:
         return np.array([p.check(given.get(p.name, p.start)) for p in self.parameters], dtype=np.float64)
 
     def prepare(self, choices: Choices) -> Prepared:
-        """Choices as it reads them.
-
-        Raises:
-            CogmapError: it needs prospects, and they have none.
-        """
+        """Choices as it reads them. Raises CogmapError: it needs prospects, and they have none."""
         return Prepared(choices, choices.open, tuple(term.prepare(choices) for term in self.terms))
 
     def probabilities(self, prepared: Prepared, values: Floats) -> Floats:

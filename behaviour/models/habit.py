@@ -1,7 +1,5 @@
 """Turn habits: Rosenberg's biased walk, by turns relative to the last move."""
 
-from __future__ import annotations
-
 from ..terms import Habit
 from .base import ChoiceModel
 

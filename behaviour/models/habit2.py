@@ -1,7 +1,5 @@
 """Turn habits that depend on the turn before."""
 
-from __future__ import annotations
-
 from ..terms import Habit
 from .base import ChoiceModel
 

@@ -1,7 +1,5 @@
 """Habits and the map together: the whole model. Which terms it has was decided by held-out likelihood."""
 
-from __future__ import annotations
-
 from ..terms import Habit, Home, Value
 from .base import ChoiceModel
 

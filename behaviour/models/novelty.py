@@ -1,7 +1,5 @@
 """Places that were visited less draw more."""
 
-from __future__ import annotations
-
 from ..terms import Novelty
 from .base import ChoiceModel
 

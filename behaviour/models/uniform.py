@@ -1,7 +1,5 @@
 """All ways alike."""
 
-from __future__ import annotations
-
 from .base import ChoiceModel
 
 UNIFORM = ChoiceModel("uniform")

@@ -1,7 +1,5 @@
 """Terms of choice models, a file each."""
 
-from __future__ import annotations
-
 from .base import Parameter, Term
 from .habit import Habit
 from .home import Home

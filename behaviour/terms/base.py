@@ -1,43 +1,28 @@
 """What a term of a choice model is: its parameters, and what it adds to the log weight of each way."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...model import CogmapError
+from ...model import CogmapError, Floats
 from ..choices import Choices
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parameter:
-    """A number that is fitted.
+    """A number that is fitted."""
 
-    Attributes:
-        name: of it.
-        meaning: what it is, for people.
-        low: its least value.
-        high: its greatest value.
-        start: where a fit sets out, and what simulated individuals have unless told otherwise.
-        spread: standard deviation between individuals in a hierarchical fit.
-        typical: between which values further fits set out.
-        doubt: standard deviation of the weak normal prior around `start` that keeps what choices do not tell from
-            running away; none unless given.
-    """
-
-    name: str
-    meaning: str
-    low: float
-    high: float
-    start: float
-    spread: float
-    typical: tuple[float, float]
+    name: str  # of it
+    meaning: str  # what it is, for people
+    low: float  # its least value
+    high: float  # its greatest value
+    start: float  # where a fit sets out, and what simulated individuals have unless told otherwise
+    spread: float  # standard deviation between individuals in a hierarchical fit
+    typical: tuple[float, float]  # between which values further fits set out
+    # standard deviation of the weak normal prior around `start` that keeps what choices do not tell from
+    # running away; none unless given
     doubt: float = np.inf
 
     def check(self, value: float) -> float:

@@ -1,7 +1,5 @@
 """Habit: log E(action), the action named by how it lies to the last moves."""
 
-from __future__ import annotations
-
 from itertools import product
 from typing import Any
 
@@ -10,8 +8,7 @@ import numpy as np
 from ..choices import FORWARD, RELATIONS, Choices
 from .base import Floats, Parameter, Term
 
-COUNTS = 0.1
-"""Dirichlet counts of each action before anything was seen."""
+COUNTS = 0.1  # Dirichlet counts of each action before anything was seen
 LIKENESS = 3.0
 """Nats by which rows differ from the mean of the rows with the same last move, and these means from theirs."""
 _OTHERS = tuple(i for i in range(len(RELATIONS)) if i != FORWARD)

@@ -1,7 +1,5 @@
 """Going home, and dead ends: where a way leads, whatever was there before."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Novelty: places that were visited less draw more, and visits are forgotten."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

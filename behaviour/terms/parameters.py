@@ -1,7 +1,5 @@
 """Parameters that several terms share."""
 
-from __future__ import annotations
-
 from .base import Parameter
 
 FORGETTING = Parameter(

@@ -1,7 +1,5 @@
 """Recency: where one has just been, one does not go again."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

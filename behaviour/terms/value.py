@@ -1,7 +1,5 @@
 """Value: the expected free energy of what an agent with a map would do next, as it begins with each way."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -11,8 +9,7 @@ from ..choices import Choices
 from .base import Floats, Parameter, Term
 from .parameters import FORGETTING
 
-EXACT = 5_000_000
-"""Steps of policies that are kept in double precision; more take single precision, for memory."""
+EXACT = 5_000_000  # steps of policies that are kept in double precision; more take single precision, for memory
 
 
 class Value(Term):

@@ -18,6 +18,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import running
 from mkdocs.exceptions import PluginError
 
 os.environ["MPLBACKEND"] = "Agg"
@@ -52,14 +53,14 @@ class Page:
     pictures: dict[str, bytes] = field(default_factory=dict[str, bytes])
 
 
-def run_notebook(path: Path) -> list[Cell]:
-    """Run the code of a notebook in an empty folder, cell after cell in one namespace.
+def run_notebook(path: Path, *, dark: bool = False) -> list[Cell]:
+    """Run the code of a notebook in an empty folder, cell after cell in one namespace; `dark` draws for the dark theme.
 
     Raises:
         PluginError: a cell failed.
     """
     namespace: dict[str, Any] = {"__name__": "__main__"}
-    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder), running.drawn(dark=dark):
         return [_run(cell, namespace, path.name) for cell in _cells(path)]
 
 
@@ -70,7 +71,10 @@ def notebook_page(path: Path) -> Page:
         PluginError: a cell failed.
     """
     lines, pictures = list[str](), dict[str, bytes]()
-    for number, cell in enumerate(run_notebook(path)):
+    cells = run_notebook(path)
+    drawing = any(cell.figure or "<svg" in cell.shown for cell in cells)
+    twins = run_notebook(path, dark=True) if drawing else cells
+    for number, (cell, other) in enumerate(zip(cells, twins, strict=True)):
         if cell.kind == "markdown":
             lines += [cell.source, ""]
             continue
@@ -78,10 +82,13 @@ def notebook_page(path: Path) -> Page:
         if said := "\n".join(part for part in (cell.printed.rstrip(), cell.text) if part):
             lines += [f"``` {{ .text .output }}\n{said}\n```", ""]
         if cell.shown:
-            lines += [f'<div class="shown">{cell.shown}</div>', ""]
+            both = "<svg" in cell.shown and other is not cell
+            lines += [f'<div class="shown{" only-light" * both}">{cell.shown}</div>', ""]
+            lines += [f'<div class="shown only-dark">{other.shown}</div>', ""] if both else []
         if cell.figure:
-            pictures[f"cell-{number}.png"] = cell.figure
-            lines += [f"![](../drawn/examples/{path.stem}/cell-{number}.png){{ loading=lazy }}", ""]
+            name = f"cell-{number}.png"
+            pictures |= {name: cell.figure, running.twin(name): other.figure}
+            lines += [*running.images("", f"../drawn/examples/{path.stem}/{name}", both=True), ""]
     lines += [f"This page is the notebook [{path.name}]({path.name}), run when it was built.", ""]
     return Page("\n".join(lines), pictures)
 

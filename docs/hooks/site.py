@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import posixpath
+import re
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -42,9 +43,7 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
     texts = [file.content_string for file in files.documentation_pages()]
     for uri, text in [*repository.pages().items(), *reference.pages(texts).items()]:
         files.append(File.generated(config, uri, content=text))
-    with ThreadPoolExecutor(2) as pool:
-        outcomes = list(pool.map(running.run_script, repository.EXAMPLES))
-    for path, outcome in zip(repository.EXAMPLES, outcomes, strict=True):
+    for path, outcome in zip(repository.EXAMPLES, running.run_scripts(repository.EXAMPLES), strict=True):
         uri = repository.PAGES[f"examples/{path.name}"]
         text = repository.example_page(path, outcome.text, running.shown_pictures(outcome.pictures, "", uri))
         files.append(File.generated(config, uri, content=text))
@@ -62,11 +61,21 @@ def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: 
     uri = page.file.src_uri
     if uri.startswith("reference/"):
         return markdown
-    markdown = repository.with_site_links(markdown, uri)
+    markdown = with_dark_pictures(repository.with_site_links(markdown, uri))
     if not uri.startswith(("examples/", "decisions/")):
         markdown, pictures = running.with_outcomes(markdown, uri)
         _add_pictures(pictures, uri, files, config)
     return equations.with_equations(reference.with_links(markdown), uri)
+
+
+def with_dark_pictures(markdown: str) -> str:
+    """Each picture of `docs/pictures` that has a dark twin there, in the theme of the reader."""
+
+    def both(found: re.Match[str]) -> str:
+        there = (repository.ROOT / "docs" / "pictures" / running.twin(posixpath.basename(found[2]))).is_file()
+        return "\n".join(running.images(found[1], found[2], both=there))
+
+    return re.sub(r"!\[([^\]]*)\]\(([./]*pictures/[\w.]+)\)", both, markdown)
 
 
 def _add_pictures(pictures: dict[str, bytes], uri: str, files: Files, config: Any) -> None:

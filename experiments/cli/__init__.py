@@ -1,7 +1,5 @@
 """The command `cogmap`: one module a command."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 import typer

@@ -39,28 +39,16 @@ PARTLY_DRAWN, MOST_DRAWN = 2_000, 20_000
 """Rooms of a world of which the part walked is drawn alone, and of that part: a thousand take some seconds."""
 
 
+@opt.spread
 def explore_command(
-    world: opt.World,
+    at: opt.Where,
+    sweep: opt.Sweep,
     agent: opt.Agent = "cogmap",
-    runs: opt.Runs = None,
-    seed: opt.Seed = 0,
-    look_ahead: opt.LookAhead = 6,
     max_steps: MaxSteps = None,
     steps: Steps = None,
-    noise: opt.Noise = None,
-    sights: opt.Sights = None,
-    format: opt.Format = "text",
-    pose: opt.Pose = None,
-    told: opt.Told = None,
     cost: opt.Cost = "steps",
-    view: opt.View = None,
-    tiles: opt.Tiles = None,
-    policies: opt.Policies = None,
-    preset: opt.Preset = "cogmap",
     growth: Growth = "predicted",
     engine: Engine = "numpy",
-    jobs: opt.Jobs = 1,
-    dask: opt.Dask = None,
     json: Json = None,
     save: Save = None,
     trace: opt.Trace = None,
@@ -72,67 +60,62 @@ def explore_command(
     """
     from ... import experiments as lab
     from ...model import GROWTHS, CogmapError
-    from ...views import Scene, explore_figure
     from .registered import run_registered
     from .walk_text import show_walk
 
-    if lab.is_registered(world):
-        refused = {"--agent": agent != "cogmap", "--noise": bool(noise), "--sights": sights is not None}
-        refused |= {"--tiles": tiles is not None, "--steps": steps is not None, "--growth": growth != "predicted"}
-        refused |= {"--save": save is not None, "--trace": trace is not None, "--out": out is not None}
-        refused |= {"--dask": dask is not None, "--pose": pose is not None, "--cost": cost != "steps"}
-        how: Any = {"view": view, "runs": runs, "seed": seed, "look_ahead": look_ahead, "max_steps": max_steps}
-        run_registered(world, errand=False, **how, jobs=jobs, json=json, refused=refused)
+    if lab.is_registered(at.world):
+        refused = {"--agent": agent != "cogmap", "--steps": steps, "--growth": growth != "predicted", "--save": save}
+        refused |= {"--trace": trace, "--out": out, "--cost": cost != "steps"}
+        run_registered(at, sweep, max_steps, json, errand=False, refused=refused)
         return
-    lower: Any = {"view": view, "tiles": tiles}
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
+    place = at.made()
     names = list(GROWTHS) if growth == "all" else list(dict.fromkeys(name.strip() for name in growth.split(",")))
-    options: dict[str, Any] = {"policies": policies, "look_ahead": look_ahead, "engine": engine, "pose": pose}
-    options["cost"] = cost
-    every = [lab.Parts.named(agent, preset=preset, growth=name, **options) for name in names]
-    sweep, chart = runs is not None or len(every) > 1, lab.chart_of(place)
-    _check(agent, len(every), save, trace, out, dask=dask is not None and not sweep)
+    options: Any = {"policies": sweep.policies, "look_ahead": at.look_ahead, "engine": engine, "pose": at.pose}
+    every = [lab.Parts.named(agent, preset=sweep.preset, growth=name, cost=cost, **options) for name in names]
+    several, chart = sweep.runs is not None or len(every) > 1, lab.chart_of(place)
+    _check(agent, len(every), save, trace, out, dask=sweep.dask is not None and not several)
     if steps is not None and max_steps is not None:
         raise CogmapError("--steps walks on whatever is complete, and --max-steps gives up; give one of them")
     walked: Any = {"max_steps": max_steps, "steps": steps}
-    picture = out if sweep or out is not None else lab.unused(lab.file_named(chart.name, ".png"))
-    lab.check_outputs([json, save, trace, picture], inputs=[world], picture=picture)
+    picture = out if several or out is not None else lab.unused(lab.file_named(chart.name, ".png"))
+    lab.check_outputs([json, save, trace, picture], inputs=[at.world], picture=picture)
     results: list[dict[str, Any]] = []
-    if sweep:
-        total = (runs or 1) * len(every)
-        with lab.workers(jobs=jobs, dask=dask) as executor, counting(f"exploring {chart.name}", total) as one_more:
-            where: Any = {"runs": runs or 1, "seed": seed, "executor": executor, "on_done": one_more}
-            for parts in every:
-                made = lab.explore_many(place, agent=parts, **walked, **where)
-                results.append(lab.exploration(place, made, agent=parts, **walked))
+    if several:
+        results = _sweeps(place, chart, at.seed, sweep, every, walked)
         _show_sweeps(results)
     seen: list[Any] = []
-    one = not sweep or save or trace or picture
-    done = _walk(place, chart, seed, every[0], walked, trace, seen) if one else None
-    if done is not None and not sweep:
+    one = not several or save or trace or picture
+    done = _walk(place, chart, at.seed, every[0], walked, trace, seen) if one else None
+    if done is not None and not several:
         show_walk(chart, done, agent=agent)
         results = [lab.exploration(place, [done.run], agent=every[0], **walked)]
     if json is not None:
         lab.write_json(json, results[0] if len(results) == 1 else results)
     if done is not None and save is not None:
         done.walker.save(save)
-    shown = None if done is None or picture is None else _drawn(chart, done.path)
-    if done is not None and picture is not None and shown is None:
-        say(f"No picture: more than {MOST_DRAWN} rooms were walked through, or stand beside.")
-        picture = None
-    if done is not None and picture is not None and shown is not None:
-        known: dict[str, Any] = {"map_": done.walker.map, "trace": done.walker.trace} if agent == "cogmap" else {}
-        if hasattr(world_seen := seen[0].unwrapped, "scene"):
-            known["scene"] = Scene(*world_seen.scene())
-        with progress("drawing", 1):
-            title = f"{chart.name}{'' if shown is chart else ' (the part walked)'}, {agent}, seed {seed}"
-            picture = lab.write_picture(
-                picture, explore_figure(shown, done.path, title=title, **known), new=out is None
-            )
+    if done is not None and picture is not None:
+        title = f"{agent}, seed {at.seed}"
+        picture = _picture(picture, chart, done, seen[0].unwrapped, title, mapped=agent == "cogmap", new=out is None)
     say_saved(runs=json, agent=save, trace=trace, picture=picture)
-    if done is not None and not sweep and not done.finished and steps is None:
+    if done is not None and not several and not done.finished and steps is None:
         say(f"Not complete after {len(done.path) - 1} steps; allow more with --max-steps.", style="bold red")
         raise typer.Exit(NOT_COMPLETE)
+
+
+def _sweeps(
+    place: Any, chart: Chart, seed: int, sweep: opt.Sweep, every: Sequence[Parts], walked: Any
+) -> list[dict[str, Any]]:
+    """The result of each of several agents."""
+    from ... import experiments as lab
+
+    runs = sweep.runs or 1
+    with (
+        lab.workers(jobs=sweep.jobs, dask=sweep.dask) as executor,
+        counting(f"exploring {chart.name}", runs * len(every)) as one_more,
+    ):
+        where: Any = {"runs": runs, "seed": seed, "executor": executor, "on_done": one_more}
+        made = [(parts, lab.explore_many(place, agent=parts, **walked, **where)) for parts in every]
+    return [lab.exploration(place, done, agent=parts, **walked) for parts, done in made]
 
 
 def _check(agent: str, growths: int, save: Path | None, trace: Path | None, out: Path | None, *, dask: bool) -> None:
@@ -170,14 +153,23 @@ def _walk(place: Any, chart: Chart, seed: int, parts: Parts, walked: Any, trace:
     return done
 
 
-def _drawn(chart: Chart, path: Sequence[Any]) -> Chart | None:
-    """What to draw of a world: all of it, or the part walked of a large one; None where that is too large as well."""
+def _picture(path: Path, chart: Chart, done: Walk, world: Any, title: str, *, mapped: bool, new: bool) -> Path | None:
+    """Draw the world, or the part walked of a large one; None, and a word about it, where that is too large as well."""
+    from ...views import Scene, explore_figure
     from ...worlds import ChartPart
+    from .. import write_picture
 
-    if len(chart.places) <= PARTLY_DRAWN:
-        return chart
-    part = ChartPart.around(chart, path)
-    return part if len(part.places) <= MOST_DRAWN else None
+    shown, name = chart, chart.name
+    if len(chart.places) > PARTLY_DRAWN:
+        shown, name = ChartPart.around(chart, done.path), f"{chart.name} (the part walked)"
+    if len(shown.places) > MOST_DRAWN:
+        say(f"No picture: more than {MOST_DRAWN} rooms were walked through, or stand beside.")
+        return None
+    known: dict[str, Any] = {"map_": done.walker.map, "trace": done.walker.trace} if mapped else {}
+    if hasattr(world, "scene"):
+        known["scene"] = Scene(*world.scene())
+    with progress("drawing", 1):
+        return write_picture(path, explore_figure(shown, done.path, title=f"{name}, {title}", **known), new=new)
 
 
 def _show_sweeps(results: list[dict[str, Any]]) -> None:

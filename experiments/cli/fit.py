@@ -1,11 +1,8 @@
 """`cogmap fit`: models of choice, fitted to recorded walks and compared by what they predict of bouts held out."""
 
-from __future__ import annotations
-
 from contextlib import nullcontext
 from dataclasses import asdict
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -80,26 +77,25 @@ def fit_command(
 def _rows(source: Any, models: Any, how: Any, executor: Any, kept: Path | None) -> list[dict[str, Any]]:
     """The rows of all tasks: those of the ledger, then what is left to do."""
     from ...behaviour import run_task, tasks_of
-    from .. import Ledger, completed
+    from .. import Ledger, completed, kept_rows
 
-    tasks = tasks_of(models, how)
+    tasks, rows = {task: task for task in tasks_of(models, how)}, list[dict[str, Any]]()
+    made, fitted = {"walks": source.digest, **asdict(how)}, partial(run_task, source=source, how=how)
     with nullcontext() if kept is None else Ledger(kept) as ledger:
-        made = {"walks": source.digest, **asdict(how), "cogmap": version("cogmap")}
-        rows = [] if ledger is None else ledger.begin(dict[str, Any], **made)
-        rows = [row for row in rows if (row["model"], row["fold"]) in tasks]
-        done = {(row["model"], row["fold"]) for row in rows}
-        left = [task for task in tasks if task not in done]
+        coming = kept_rows(fitted, tasks, dict[str, Any], ledger, executor, made, key=_task, write=dict[str, Any])
         if any(model.needs_agent for model in models):
             with counting("following", len(source.routes)) as one_more:
                 for _ in completed(source.follow, range(len(source.routes)), executor=executor):
                     one_more()
-        with counting("fitting", len(left)) as one_more:
-            for _, row in completed(partial(run_task, source=source, how=how), left, executor=executor):
-                if ledger is not None:
-                    ledger.append(row)
+        with counting("fitting", len(tasks)) as one_more:
+            for row in coming:
                 rows.append(row)
                 one_more()
     return rows
+
+
+def _task(row: dict[str, Any]) -> Any:
+    return row["model"], row["fold"]
 
 
 def _show(result: dict[str, Any]) -> None:

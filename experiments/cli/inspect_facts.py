@@ -1,7 +1,5 @@
 """What is in a saved agent, as plain JSON values."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -92,11 +90,7 @@ def transition_rows(map_: CognitiveMap) -> list[Facts]:
 
 
 def place_facts(agent: Agent, place: int) -> Facts:
-    """Everything about one place.
-
-    Raises:
-        CogmapError: there is no such place.
-    """
+    """Everything about one place. Raises CogmapError: there is no such place."""
     map_ = agent.map
     counts = counts_of(map_, place)  # raises where there is no such place
     visits = map_.visited_places.tolist()
@@ -115,11 +109,7 @@ def place_facts(agent: Agent, place: int) -> Facts:
 
 
 def growth_rows(map_: CognitiveMap, since: int) -> Facts:
-    """The events from step `since` on, and what they come to.
-
-    Raises:
-        CogmapError: the map is younger.
-    """
+    """The events from step `since` on, and what they come to. Raises CogmapError: the map is younger."""
     table, difference = growth_table(map_, since), growth_between(map_, since)
     events = [dict(zip(map(str, table.columns), row, strict=True)) for row in table.cells]
     return {

@@ -1,7 +1,5 @@
 """What is in a saved agent, as tables in a terminal."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from operator import itemgetter
 from typing import Any

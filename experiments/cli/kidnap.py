@@ -1,7 +1,5 @@
 """`cogmap kidnap`: moved without a word, one run for people, or a sweep."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import typer
@@ -11,23 +9,11 @@ from . import options as opt
 from .progress import counting
 
 
+@opt.spread
 def kidnap_command(
-    world: opt.World,
-    runs: opt.Runs = None,
-    seed: opt.Seed = 0,
-    look_ahead: opt.LookAhead = 6,
+    at: opt.Where,
+    sweep: opt.Sweep,
     max_steps: opt.MaxStepsTwice = None,
-    policies: opt.Policies = None,
-    preset: opt.Preset = "cogmap",
-    jobs: opt.Jobs = 1,
-    dask: opt.Dask = None,
-    noise: opt.Noise = None,
-    sights: opt.Sights = None,
-    format: opt.Format = "text",
-    pose: opt.Pose = None,
-    told: opt.Told = None,
-    view: opt.View = None,
-    tiles: opt.Tiles = None,
     turned: opt.Turned = False,
     json: opt.Json = None,
 ) -> None:
@@ -37,21 +23,23 @@ def kidnap_command(
     """
     from .. import Parts, chart_of, check_kidnap, check_outputs, kidnap_many, kidnap_result, workers, write_json
 
-    lower: Any = {"view": view, "tiles": tiles, "turned": turned}
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
-    parts = Parts.named(preset=preset, policies=policies, look_ahead=look_ahead, pose=pose)
+    place = at.made(turned=turned)
+    parts = Parts.named(preset=sweep.preset, policies=sweep.policies, look_ahead=at.look_ahead, pose=at.pose)
     options: Any = {"agent": parts, "max_steps": max_steps}
     check_kidnap(place)
-    check_outputs([json], inputs=[world])
-    name, many = chart_of(place).name, runs or 1
-    with workers(jobs=jobs, dask=dask) as executor, counting(f"kidnapping in {name}", many) as one_more:
-        done = kidnap_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)
+    check_outputs([json], inputs=[at.world])
+    name, many = chart_of(place).name, sweep.runs or 1
+    with (
+        workers(jobs=sweep.jobs, dask=sweep.dask) as executor,
+        counting(f"kidnapping in {name}", many) as one_more,
+    ):
+        done = kidnap_many(place, runs=many, seed=at.seed, executor=executor, on_done=one_more, **options)
     result = kidnap_result(place, done, **options)
-    say(*(_one(result) if runs is None else _many(result)), title=name)
+    say(*(_one(result) if sweep.runs is None else _many(result)), title=name)
     if json is not None:
         write_json(json, result)
     say_saved(runs=json)
-    if runs is None and not done[0].recovered:
+    if sweep.runs is None and not done[0].recovered:
         raise typer.Exit(1)
 
 

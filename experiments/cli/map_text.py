@@ -1,7 +1,5 @@
 """A map as text in a terminal."""
 
-from __future__ import annotations
-
 from rich.cells import cell_len, set_cell_size
 from rich.style import Style
 from rich.text import Text

@@ -1,7 +1,5 @@
 """`cogmap navigate`: to a preferred sight, one run for people, or a sweep."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
 import typer
@@ -26,28 +24,16 @@ Close = Annotated[
 Weight = Annotated[float, typer.Option(help="W: log preference of the goal over all other sights, in nats.")]
 
 
+@opt.spread
 def navigate_command(
-    world: opt.World,
+    at: opt.Where,
+    sweep: opt.Sweep,
     goal: Goal = None,
     agent: opt.Agent = "cogmap",
     unexplored: Unexplored = False,
-    runs: opt.Runs = None,
-    seed: opt.Seed = 0,
-    look_ahead: opt.LookAhead = 6,
     max_steps: opt.MaxStepsTwice = None,
-    policies: opt.Policies = None,
-    preset: opt.Preset = "cogmap",
     weight: Weight = 8.0,
     close: Close = None,
-    jobs: opt.Jobs = 1,
-    dask: opt.Dask = None,
-    noise: opt.Noise = None,
-    sights: opt.Sights = None,
-    format: opt.Format = "text",
-    pose: opt.Pose = None,
-    told: opt.Told = None,
-    view: opt.View = None,
-    tiles: opt.Tiles = None,
     turned: opt.Turned = False,
     json: opt.Json = None,
     trace: opt.Trace = None,
@@ -62,37 +48,37 @@ def navigate_command(
     from .tracing import Tracing, check_trace
 
     check_trace(agent, trace)
-    if lab.is_registered(world):
+    if lab.is_registered(at.world):
         known = "setting out in a world that it knows (without --unexplored)"
-        refused = {"--goal": goal is not None, known: not unexplored}
-        refused |= {"--agent": agent != "cogmap", "--noise": bool(noise), "--sights": sights is not None}
-        refused |= {"--tiles": tiles is not None, "--turned": turned, "--close": bool(close)}
-        refused |= {"--trace": trace is not None, "--dask": dask is not None, "--pose": pose is not None}
-        how: Any = {"view": view, "runs": runs, "seed": seed, "look_ahead": look_ahead, "max_steps": max_steps}
-        run_registered(world, errand=True, **how, jobs=jobs, json=json, refused=refused)
+        refused = {"--goal": goal, known: not unexplored, "--agent": agent != "cogmap", "--turned": turned}
+        refused |= {"--close": close, "--trace": trace}
+        run_registered(at, sweep, max_steps, json, errand=True, refused=refused)
         return
     if goal is None:
-        raise CogmapError(f"navigate: {world} has no goal of its own; give --goal LABEL")
-    lower: Any = {"view": view, "tiles": tiles, "turned": turned, "goal": goal}
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, **lower)
-    label, name, many = lab.parse_goal(place, goal), lab.chart_of(place).name, runs or 1
+        raise CogmapError(f"navigate: {at.world} has no goal of its own; give --goal LABEL")
+    place = at.made(turned=turned, goal=goal)
+    label, name, many = lab.parse_goal(place, goal), lab.chart_of(place).name, sweep.runs or 1
     task: Any = {"weight": weight, "closed": [_room(text) for text in close or ()], "known": not unexplored}
     lab.check_goal(place, label, **task)
-    lab.check_outputs([json, trace], inputs=[world])
-    parts = lab.Parts.named(agent, preset=preset, policies=policies, look_ahead=look_ahead, pose=pose)
+    lab.check_outputs([json, trace], inputs=[at.world])
+    how: Any = {"policies": sweep.policies, "look_ahead": at.look_ahead, "pose": at.pose}
+    parts = lab.Parts.named(agent, preset=sweep.preset, **how)
     options: Any = {"goal": label, "agent": parts, "max_steps": max_steps, **task}
-    with lab.workers(jobs=jobs, dask=dask) as executor, counting(f"navigating in {name}", many) as one_more:
-        done = lab.navigate_many(place, runs=many, seed=seed, executor=executor, on_done=one_more, **options)
+    with (
+        lab.workers(jobs=sweep.jobs, dask=sweep.dask) as executor,
+        counting(f"navigating in {name}", many) as one_more,
+    ):
+        done = lab.navigate_many(place, runs=many, seed=at.seed, executor=executor, on_done=one_more, **options)
     result = lab.navigate_result(place, done, **options)
-    say(*(_one(result) if runs is None else _many(result)), title=f"{name}, goal {label}")
+    say(*(_one(result) if sweep.runs is None else _many(result)), title=f"{name}, goal {label}")
     if json is not None:
         lab.write_json(json, result)
     if trace is not None:
-        tracing = Tracing(trace, lab.chart_of(place), title=f"{name}, goal {label}, seed {seed}", goals=(label,))
-        lab.navigate(place, seed, watch=tracing, **options)
+        tracing = Tracing(trace, lab.chart_of(place), title=f"{name}, goal {label}, seed {at.seed}", goals=(label,))
+        lab.navigate(place, at.seed, watch=tracing, **options)
         tracing.save()
     say_saved(runs=json, trace=trace)
-    if runs is None and not done[0].reached:
+    if sweep.runs is None and not done[0].reached:
         raise typer.Exit(1)
 
 

@@ -1,8 +1,9 @@
 """Options that several commands have."""
 
-from __future__ import annotations
-
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from functools import wraps
+from inspect import Parameter, Signature, signature
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -70,9 +71,7 @@ Trace = Annotated[
 
 Told = Annotated[
     str | None,
-    typer.Option(
-        metavar="NAME", help="What a graph tells of a pose: motions, displacement, bearing or none. The most it can."
-    ),
+    typer.Option(metavar="NAME", help="What a graph tells of a pose: motions, displacement, lengths, bearing or none."),
 ]
 View = Annotated[
     str | None, typer.Option(metavar="NAME", help="Of a world of MiniGrid: symbolic (what it is unless given) or rgb.")
@@ -85,42 +84,81 @@ Turned = Annotated[
     bool, typer.Option("--turned", help="In a world of MiniGrid: a silent move turns the body, to a random heading.")
 ]
 
-MINIGRID = "minigrid:"
-"""What the names of room mazes in MiniGrid begin with."""
+MINIGRID = "minigrid:"  # what the names of room mazes in MiniGrid begin with
 
 
-def world_of(
-    name: str,
-    *,
-    noise: Sequence[str] | None,
-    sights: str | None,
-    format: str,
-    seed: int,
-    view: str | None = None,
-    tiles: str | None = None,
-    turned: bool = False,
-    goal: str | None = None,
-    told: str | None = None,
-) -> Any:
-    """The world of these options."""
-    from ...model import CogmapError
-    from ...worlds import NoisyWorld, load_world
+@dataclass(frozen=True, slots=True)
+class Where:
+    """Where to walk: options of every command that makes an agent; see `spread`."""
 
-    rates = _rates(noise or ())
-    how: dict[str, Any]
-    given: Any = int(sights) if sights is not None and sights.isascii() and sights.isdecimal() else sights
-    if name.startswith(MINIGRID):
-        from ...body import BODILY, load_embodied
+    world: World
+    seed: Seed = 0
+    look_ahead: LookAhead = 6
+    noise: Noise = None
+    sights: Sights = None
+    format: Format = "text"
+    pose: Pose = None
+    told: Told = None
+    view: View = None
+    tiles: Tiles = None
 
-        of_body = {kind: rates.pop(kind) for kind in BODILY if kind in rates}
-        how = {"view": view, "tiles": tiles, "turned": turned, "noise": of_body, "white": goal == "white"}
-        world = load_embodied(name.removeprefix(MINIGRID), format=format, sights=given, seed=seed, **how)
-    elif view is not None or tiles is not None or turned:
-        raise CogmapError(f"--view, --tiles and --turned are for worlds of MiniGrid, such as {MINIGRID}3x3, not {name}")
-    else:
-        how = {"format": format, "pose": told}  # refused by name where they are not known
-        world = load_world(name, sights=given, seed=seed, **how)
-    return NoisyWorld(world, **rates) if rates else world
+    def made(self, *, turned: bool = False, goal: str | None = None) -> Any:
+        """The world."""
+        from ...model import CogmapError
+        from ...worlds import NoisyWorld, load_world
+
+        rates, name, sights = _rates(self.noise or ()), self.world, self.sights
+        given: Any = int(sights) if sights is not None and sights.isascii() and sights.isdecimal() else sights
+        how: dict[str, Any] = {"format": self.format, "sights": given, "seed": self.seed}
+        if name.startswith(MINIGRID):
+            from ...body import BODILY, load_embodied
+
+            of_body = {kind: rates.pop(kind) for kind in BODILY if kind in rates}
+            how |= {
+                "view": self.view,
+                "tiles": self.tiles,
+                "turned": turned,
+                "noise": of_body,
+                "white": goal == "white",
+            }
+            world = load_embodied(name.removeprefix(MINIGRID), **how)
+        elif self.view is not None or self.tiles is not None or turned:
+            only = f"--view, --tiles and --turned are for worlds of MiniGrid, such as {MINIGRID}3x3"
+            raise CogmapError(f"{only}, not {name}")
+        else:
+            how["pose"] = self.told  # refused by name where it is not known
+            world = load_world(name, **how)
+        return NoisyWorld(world, **rates) if rates else world
+
+
+@dataclass(frozen=True, slots=True)
+class Sweep:
+    """How often, with which agent and where it is worked out: options of the commands that make runs."""
+
+    runs: Runs = None
+    policies: Policies = None
+    preset: Preset = "cogmap"
+    jobs: Jobs = 1
+    dask: Dask = None
+
+
+def spread(command: Callable[..., None]) -> Callable[..., None]:
+    """The command with options in the place of each parameter that is a dataclass: its fields."""
+    own = {part.name: part for part in signature(command, eval_str=True).parameters.values()}
+    groups: dict[str, Any] = {name: part.annotation for name, part in own.items() if is_dataclass(part.annotation)}
+
+    @wraps(command)
+    def run(**given: Any) -> None:
+        made = {
+            name: group(**{part.name: given.pop(part.name) for part in fields(group)}) for name, group in groups.items()
+        }
+        command(**made, **given)
+
+    listed = [(signature(groups[name]).parameters.values() if name in groups else [part]) for name, part in own.items()]
+    options = [option.replace(kind=Parameter.KEYWORD_ONLY) for group in listed for option in group]
+    run.__annotations__ = {option.name: option.annotation for option in options}
+    run.__signature__ = Signature(options)  # type: ignore[attr-defined]
+    return run
 
 
 def _rates(noise: Sequence[str]) -> dict[str, float]:

@@ -1,7 +1,5 @@
 """A progress bar on stderr, for what takes longer than a second."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from itertools import count

@@ -1,52 +1,44 @@
 """`cogmap explore` and `cogmap navigate` in environments of MiniGrid by their ids."""
 
-from __future__ import annotations
-
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import typer
 
 from ..text import count, number, say, say_saved, seeds_of
+from .options import Sweep, Where
 from .progress import counting
 
 
 def run_registered(
-    name: str,
-    *,
-    errand: bool,
-    view: str | None,
-    runs: int | None,
-    seed: int,
-    look_ahead: int,
-    max_steps: int | None,
-    jobs: int,
-    json: Path | None,
-    refused: dict[str, bool],
+    at: Where, sweep: Sweep, max_steps: int | None, json: Path | None, *, errand: bool, refused: Mapping[str, object]
 ) -> None:
-    """Run episodes, and show them.
+    """Run episodes in the environment that is called `at.world`, and show them.
 
-    Args:
-        name, errand, view, runs, seed, look_ahead, max_steps, jobs, json: see `run_id` and the commands.
-        refused: options that make no sense there, by name, and whether they were given.
+    Raises:
+        CogmapError: an option is given that makes no sense there; `refused` has those of the command alone.
     """
     from ... import experiments as lab
     from ...agent import Settings
     from ...model import CogmapError
 
-    if given := [option for option, is_given in refused.items() if is_given]:
-        raise CogmapError(f"{name}: {given[0]} is for worlds whose truth is known, such as minigrid:3x3; leave it out")
+    common = {"--noise": at.noise, "--sights": at.sights, "--tiles": at.tiles, "--pose": at.pose, "--dask": sweep.dask}
+    if given := [option for option, value in {**refused, **common}.items() if value not in (None, False, [])]:
+        known = "is for worlds whose truth is known, such as minigrid:3x3; leave it out"
+        raise CogmapError(f"{at.world}: {given[0]} {known}")
     lab.check_outputs([json])
-    how: Any = {"errand": errand, "view": view}
-    own: Any = {"settings": Settings(look_ahead=look_ahead), "max_steps": max_steps}
-    with lab.workers(jobs=jobs) as executor, counting(name, runs or 1) as one_more:
-        done = lab.run_ids(name, runs=runs or 1, seed=seed, executor=executor, on_done=one_more, **how, **own)
-    result = lab.ids_result(name, done, **how)
-    say(*(_one(result) if runs is None else _many(result)), title=name)
+    how: Any = {"errand": errand, "view": at.view}
+    own: Any = {"settings": Settings(look_ahead=at.look_ahead), "max_steps": max_steps}
+    with lab.workers(jobs=sweep.jobs) as executor, counting(at.world, sweep.runs or 1) as one_more:
+        own |= {"executor": executor, "on_done": one_more}
+        done = lab.run_ids(at.world, runs=sweep.runs or 1, seed=at.seed, **how, **own)
+    result = lab.ids_result(at.world, done, **how)
+    say(*(_one(result) if sweep.runs is None else _many(result)), title=at.world)
     if json is not None:
         lab.write_json(json, result)
     say_saved(runs=json)
-    if runs is None and not (done[0].reached if errand else done[0].explored or done[0].reached):
+    if sweep.runs is None and not (done[0].reached if errand else done[0].explored or done[0].reached):
         raise typer.Exit(1)
 
 

@@ -1,7 +1,5 @@
 """`cogmap replay`: a recorded walk as a page to step through."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated
 

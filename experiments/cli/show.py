@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 Out = Annotated[
     Path | None, typer.Option(metavar="PICTURE", help="Where the picture goes; WORLD.png in this folder unless given.")
 ]
-MOST_DRAWN = 20_000
-"""Places of the largest world that is drawn."""
+MOST_DRAWN = 20_000  # places of the largest world that is drawn
 
 
 def show_command(
@@ -39,7 +38,7 @@ def show_command(
 
     if sights is None and is_graph_file(world):
         sights = "ways"  # of those that name none
-    place = opt.world_of(world, noise=None, sights=sights, format=format, seed=seed, told=told)
+    place = opt.Where(world, seed, sights=sights, format=format, told=told).made()
     chart = lab.chart_of(place)
     picture = out or lab.unused(lab.file_named(chart.name, ".png"))
     lab.check_outputs([json, picture], inputs=[world], picture=picture)

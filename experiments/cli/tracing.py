@@ -1,7 +1,5 @@
 """Walks recorded as traces, which `cogmap replay` shows."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -27,20 +27,8 @@ QUIT, NEXT = "q", "?"
 _END = "\x04"
 
 
-def walk_command(
-    world: opt.World,
-    seed: opt.Seed = 0,
-    look_ahead: opt.LookAhead = 6,
-    noise: opt.Noise = None,
-    sights: opt.Sights = None,
-    format: opt.Format = "text",
-    pose: opt.Pose = None,
-    told: opt.Told = None,
-    view: opt.View = None,
-    tiles: opt.Tiles = None,
-    save: Save = None,
-    trace: opt.Trace = None,
-) -> None:
+@opt.spread
+def walk_command(at: opt.Where, save: Save = None, trace: opt.Trace = None) -> None:
     """Walk through a world yourself, by arrow keys or letters, and see the map grow that an agent makes of it.
 
     You see what it sees, and what it would do. Keys may also come from a pipe: `echo 'rrd?' | cogmap walk 3x3`.
@@ -48,12 +36,12 @@ def walk_command(
     from ... import experiments as lab
     from .tracing import Tracing
 
-    place = opt.world_of(world, noise=noise, sights=sights, format=format, seed=seed, told=told, view=view, tiles=tiles)
+    place = at.made()
     chart = lab.chart_of(place)
-    lab.check_outputs([save, trace], inputs=[world])
-    parts = lab.Parts.named(look_ahead=look_ahead, pose=pose)
-    tracing = Tracing(trace, chart, title=f"{chart.name}, by hand, seed {seed}")
-    session = lab.set_out("walk", place, seed, agent=parts)
+    lab.check_outputs([save, trace], inputs=[at.world])
+    parts = lab.Parts.named(look_ahead=at.look_ahead, pose=at.pose)
+    tracing = Tracing(trace, chart, title=f"{chart.name}, by hand, seed {at.seed}")
+    session = lab.set_out("walk", place, at.seed, agent=parts)
     with keys() as key:
         walker = _Walker(session.agent, chart.name, key, tracing)
         session.agent = walker

@@ -1,7 +1,5 @@
 """A walk as text in a terminal."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any

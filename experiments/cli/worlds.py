@@ -1,7 +1,5 @@
 """`cogmap worlds`: the built-in mazes."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Annotated, Any
 

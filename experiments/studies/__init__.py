@@ -1,7 +1,5 @@
 """The paper's studies, a file each, and what they share; a study of your own is one file more."""
 
-from __future__ import annotations
-
 from .buildings import Buildings
 from .figures import legend_below, panels, plot_bars
 from .intervals import Interval, Share, bootstrap, wilson

@@ -1,7 +1,5 @@
 """The study `buildings`: real maps explored, against nearest-frontier search and the best offline tour."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -27,8 +25,7 @@ DRIFT = {"odometry": 0.05, "heading": 3.0}
 GOAL = "six"
 """The sights of the worlds in which goals are sought."""
 
-LARGEST = 400
-"""Places of the largest map that is studied unless told otherwise."""
+LARGEST = 400  # places of the largest map that is studied unless told otherwise
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +68,6 @@ class Buildings(Study[Task, BuildingRun]):
     largest: int = LARGEST
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Task]:
-        """Each map with each kind of sights, with every seed."""
         return [(path, sights, seed) for path in self.maps() for sights in SIGHTS for seed in seeds]
 
     def maps(self) -> list[str]:
@@ -91,7 +87,6 @@ class Buildings(Study[Task, BuildingRun]):
         return found
 
     def run(self, task: Task, settings: Settings) -> BuildingRun:
-        """One map explored once."""
         path, sights, seed = task
         world: Any = _world(path, SIGHTS[sights])
         name = world.chart.name
@@ -105,7 +100,6 @@ class Buildings(Study[Task, BuildingRun]):
         return BuildingRun(name, sights, explored, navigate(world, seed, goal=shown, settings=settings))
 
     def summarise(self, rows: Sequence[BuildingRun]) -> Findings:
-        """Means by map and sights."""
         maps = list(dict.fromkeys(row.map for row in rows))
         groups = {(name, sights): _of(rows, name, sights) for name in maps for sights in SIGHTS}
         table = [_row(name, sights, group) for (name, sights), group in groups.items() if group]

@@ -1,7 +1,5 @@
 """The study `cost`: the paper's table of the computation time of 100 forced exploring steps."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
@@ -70,7 +68,6 @@ class Cost(Study[tuple[str, int], Time]):
         return Time(*task, round(_seconds(*task, settings, self.steps), 5))
 
     def summarise(self, rows: Sequence[Time]) -> Findings:
-        """Median and range by agent, beside what was published."""
         whole, runs = f"{self.steps} forced exploring steps in {WORLD}", len(rows) // len(MODELS)
         by_agent = sorted(rows, key=lambda row: MODELS.index(row.agent))
         times, summary, lines, table = dict[str, Interval](), list[Any](), list[str](), list[list[Value]]()

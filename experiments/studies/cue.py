@@ -1,7 +1,5 @@
 """The study `cue`: the T maze of active inference, whose cue tells where the reward is."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -18,9 +16,7 @@ from .intervals import bootstrap
 from .study import Findings, Study
 from .tables import Table, Value
 
-WANTED: dict[Hashable, float] = {REWARD: 3.0, NOTHING: -3.0}
-"""Log preferences, in nats."""
-
+WANTED: dict[Hashable, float] = {REWARD: 3.0, NOTHING: -3.0}  # log preferences, in nats
 Case = tuple[float, int]  # how often the cue is right, moves of a trial
 
 
@@ -56,11 +52,9 @@ class Cue(Study[tuple[Case, int], CueRun]):
     cases: tuple[Case, ...] = ((1.0, 2), (0.8, 2), (1.0, 3), (0.8, 3))
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[tuple[Case, int]]:
-        """Each case with every seed."""
         return [(case, seed) for case in self.cases for seed in seeds]
 
     def run(self, task: tuple[Case, int], settings: Settings) -> CueRun:
-        """One trial of both."""
         (right, moves), seed = task
         world = CueMaze(right=right, moves=moves)
         agent = Agent(world.motions, pose=NoPose(), map=world.map(), settings=settings, seed=seed)
@@ -70,7 +64,6 @@ class Cue(Study[tuple[Case, int], CueRun]):
         return CueRun(right, moves, seed, reward, optimum, first == "cue")
 
     def summarise(self, rows: Sequence[CueRun]) -> Findings:
-        """Rewards by case."""
         table = [_row(case, [row for row in rows if (row.right, row.moves) == case]) for case in self.cases]
         lines = ["  ".join(f"{key} {value}" for key, value in row.items()) for row in table]
         tables = [Table.of("cue_rewards", table, "Rewards a trial (means), beside the Bayes-optimal agent's.")]

@@ -1,7 +1,5 @@
 """The study `distances`: steps to a preferred sight from rooms at every distance, beside CSCG with learned maps."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -18,8 +16,7 @@ from .intervals import Interval, bootstrap
 from .study import Findings, Study
 from .tables import Table
 
-PAPERS = tuple(name for name in MAZES if name != "tolman")
-"""The mazes of the paper's figure."""
+PAPERS = tuple(name for name in MAZES if name != "tolman")  # the mazes of the paper's figure
 
 MODELS = {
     "cogmap": ("cogmap", "cogmap with its map", BLUE, "o"),
@@ -75,7 +72,6 @@ class Distances(Study[tuple[str, str, int], DistanceRow]):
         return [(world, model, seed) for world in PAPERS for model in MODELS for seed in seeds]
 
     def run(self, task: tuple[str, str, int], settings: Settings) -> DistanceRow:
-        """Learn one maze, then go to the goal from each distance."""
         world, model, seed = task
         maze, known = MAZES[world], model != "cogmap_unknown"
         goal, parts = draw_goal(maze, seed), Parts(MODELS[model][0], settings)
@@ -93,7 +89,6 @@ class Distances(Study[tuple[str, str, int], DistanceRow]):
         return DistanceRow(world, aliased, model, seed, goal, session.steps is not None, tuple(ways))
 
     def summarise(self, rows: Sequence[DistanceRow]) -> Findings:
-        """Means by distance, of the mazes in which sights differ and of those in which they repeat."""
         cells = summarised(rows)
         heads = {model: name for model, (_, name, _, _) in MODELS.items()}
         table = [

@@ -97,7 +97,6 @@ class Donut(Study[int, DonutRow]):
         return DonutRow.of(task, session.start, session.steps, steps)
 
     def summarise(self, rows: Sequence[DonutRow]) -> Findings:
-        """Counts over the agents, and the frames of the first that explored."""
         done = [row for row in rows if row.steps_to_explore is not None]
         protocol = {"moved_to": CORNER, "goal": GOAL, "weight": WEIGHT, "closed": CLOSED, "max_moves": MOST}
         summary = _summary(rows)

@@ -8,8 +8,6 @@ Authors' code: the code published with the paper, run by us from random starts, 
 agent; 4 or 5 of CSCG, given up after 400 steps, 3x3 and T mazes only). One thread of a machine with two cores.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial

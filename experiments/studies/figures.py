@@ -1,7 +1,5 @@
 """What the figures of the studies share: panels, bars and lines with intervals, and ways through a maze."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass

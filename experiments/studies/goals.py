@@ -1,7 +1,5 @@
 """The study `goals`: steps to a preferred sight against the exact shortest path, with a map and without."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -57,14 +55,12 @@ class Goals(Study[tuple[str, bool, int], GoalRun]):
         return [(world, known, seed) for world in MAZES for known in (True, False) for seed in seeds]
 
     def run(self, task: tuple[str, bool, int], settings: Settings) -> GoalRun:
-        """One way to a goal."""
         world, known, seed = task
         maze = MAZES[world]
         goal, aliased = draw_goal(maze, seed), len(set(maze.sights.values())) < len(maze.rooms)
         return GoalRun(world, aliased, goal, known, navigate(maze, seed, goal=goal, known=known, settings=settings))
 
     def summarise(self, rows: Sequence[GoalRun]) -> Findings:
-        """Means by maze and by distance."""
         summary = {(world, known): summarised(rows, world=world, known=known) for world in MAZES for known in HOW}
         by_world = [{"world": world, "known": known, **part} for (world, known), part in summary.items()]
         lines, failed = _lines(rows, summary), list[str]()

@@ -25,8 +25,7 @@ CAP = 600  # moves after which every agent of these studies gives up
 LEAST = 0.5  # steps that stand for none, which has no logarithm
 TABLE = tuple(name for name in MAZES if name != "tolman")  # the mazes of the paper's table
 LEARN, VISIT, COMPLETE, ORACLE = "steps_to_learn", "steps_to_visit_all", "steps_to_complete", "oracle_steps"
-NONE, MARK = "–", "†"
-"""In a table: nothing; behind a mean over runs of which some did not get there."""
+NONE, MARK = "–", "†"  # in a table: nothing; behind a mean over runs of which some did not get there
 LEGEND = f"{MARK} lower bound: runs that gave up are counted at the cap"
 COUNTED = "A run that gave up is counted and named, never dropped; means over some runs only are marked."
 
@@ -112,7 +111,6 @@ class Explorations(Kept[Cell, Row]):
     cap: int = CAP  # moves after which a run gives up
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Cell]:
-        """A cell for each maze, model, way to grow and seed."""
         return [
             Cell(MAZES[world], agent, seed, growth)
             for world in self.worlds
@@ -122,17 +120,14 @@ class Explorations(Kept[Cell, Row]):
         ]
 
     def run(self, task: Cell, settings: Settings) -> Row:
-        """One exploration."""
         return run_cell(task, settings=settings, max_steps=self.cap)
 
     def key(self, task: Cell) -> Key:
-        """That of the cell."""
         return task.key
 
     def made(
         self, tasks: Sequence[Cell], settings: Settings, executor: Executor | None, ledger: Ledger | None
     ) -> Iterator[Row]:
-        """Those that the ledger has are not made again, whichever study asked for them."""
         return run_cells(tasks, settings=settings, max_steps=self.cap, ledger=ledger, executor=executor)
 
     def grid(self, rows: Sequence[Row], what: str = "") -> Grid:

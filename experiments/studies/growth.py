@@ -1,7 +1,5 @@
 """The study `growth`: three ways to grow a map, after the paper's figure on internal map layouts."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -40,7 +38,6 @@ class Growth(Explorations):
     growths: tuple[str, ...] = ("static", "observed", "predicted")
 
     def summarise(self, rows: Sequence[Row]) -> Findings:
-        """Means by maze and way to grow."""
         drawn = self.grid(rows)
         grid = {key: steps for key, steps in drawn.items() if key[1] != "oracle"}
         lines = [f"steps to complete, mean ± standard deviation (complete of runs); {LEGEND}"]

@@ -1,7 +1,5 @@
 """The study `identity`: is a place recognised, on toruses, through portals, under noise, and without positions?"""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, fields
@@ -240,18 +238,15 @@ class Identity(Kept[Task, IdentityRow]):
         return ours + [(*one, seed) for one in others for seed in seeds[:FEW]]
 
     def key(self, task: Task) -> Task:
-        """The task."""
         return task
 
     def made(
         self, tasks: Sequence[Task], settings: Settings, executor: Executor | None, ledger: Ledger | None
     ) -> Iterator[IdentityRow]:
-        """Those that the ledger has are not made again."""
         with_, run = {"settings": settings.to_dict(), "most": self.most}, partial(self.run, settings=settings)
         return kept_rows(run, {task: task for task in tasks}, IdentityRow.from_dict, ledger, executor, with_)
 
     def run(self, task: Task, settings: Settings) -> IdentityRow:
-        """One walk."""
         name, agent, seed = task
         case, own = CASES[name], agent.removesuffix(ALONG)
         parts = Parts("cogmap", settings, pose=case.pose) if own != agent or own == "cogmap" else Parts(own)
@@ -264,7 +259,6 @@ class Identity(Kept[Task, IdentityRow]):
         return watcher.row(task, moved_at, 1000.0 * (perf_counter() - begin) / (steps + 1))
 
     def summarise(self, rows: Sequence[IdentityRow]) -> Findings:
-        """Shares, steps and rates by case and agent; and how far certainty can be trusted."""
         groups: dict[tuple[str, str], list[IdentityRow]] = {}
         for row in rows:
             groups.setdefault((row.case, row.agent), []).append(row)

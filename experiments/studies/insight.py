@@ -63,7 +63,6 @@ class Insight(Study[int, tuple[InsightRow, InsightRow]]):
     runs: int = maze.RUNS  # without obstacle
 
     def run(self, task: int, settings: Settings) -> tuple[InsightRow, InsightRow]:
-        """An agent, and a control that learns by reward and has no map."""
         agent, control = maze.new_agent(settings, task), _control(task)
         return self._trained(task, partial(maze.agent_run, agent)), self._trained(task, control)
 
@@ -74,7 +73,6 @@ class Insight(Study[int, tuple[InsightRow, InsightRow]]):
         return InsightRow.of(seed, training, probe)
 
     def summarise(self, rows: Sequence[tuple[InsightRow, InsightRow]]) -> Findings:
-        """Who tried route 3 before route 2: agents, controls and rats."""
         groups = {"agents": [pair[0] for pair in rows], "controls": [pair[1] for pair in rows]}
         parts = {name: _summary(group) for name, group in groups.items()}
         first: dict[str, Share] = {name: part["route_3_first"] for name, part in parts.items()}

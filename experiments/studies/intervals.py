@@ -1,7 +1,5 @@
 """How sure a figure is: 95 % intervals of means, of ratios of totals, and of shares."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The paper's study of localisation: put at the foot of an aliased T, where does the agent think it is?"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -110,7 +108,6 @@ class Localisation(Study[int, LocalisationRow]):
         return LocalisationRow(task, session.start, session.steps, session.place, trials)
 
     def summarise(self, rows: Sequence[LocalisationRow]) -> Findings:
-        """Counts and means over the agents that explored, by condition."""
         trials = {name: [t for row in rows for t in row.trials if t.condition == name] for name in CONDITIONS}
         conditions = {name: _summary(part) for name, part in trials.items()}
         goals = [room for room in MAZE.rooms if MAZE.sights[room] == GOAL]

@@ -102,7 +102,6 @@ class Martinet(Study[int, MartinetRow]):
         return MartinetRow.of(task, runs)
 
     def summarise(self, rows: Sequence[MartinetRow]) -> Findings:
-        """Shares of the routes that count, and the comparisons of the original."""
         runs = [run for row in rows for run in row.runs]
         shares: Shares = {
             name: {route: _of_all(rows, name, [row.counts[name][route] for row in rows]) for route in routes}

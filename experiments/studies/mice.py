@@ -1,7 +1,5 @@
 """The study `mice`: recorded animals in a labyrinth (Rosenberg et al. 2021), and what models say of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -59,7 +57,6 @@ class Mice(Study[Task, Row]):
         return [*about, *walks, *(("recover", name, seed) for name in MODELS for seed in seeds)]
 
     def run(self, task: Task, settings: Settings) -> Row:
-        """One walker, one simulated individual, or all that is asked of the recordings."""
         kind, name, seed = task
         found = recorded()
         if kind == "recover":
@@ -71,7 +68,6 @@ class Mice(Study[Task, Row]):
         return parts[kind](found, settings)
 
     def summarise(self, rows: Sequence[Row]) -> Findings:
-        """Exploration, likelihood, trips, recovery."""
         by = {
             kind: [row for row in rows if row["kind"] == kind]
             for kind in ("animals", "fit", "terms", "walk", "recover")

@@ -1,7 +1,5 @@
 """What the study `mice` counts along a walk, and its labyrinth: that of the recordings, or one like it."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -69,15 +67,10 @@ def ground() -> Ground:
 
 @dataclass(frozen=True, slots=True)
 class Ends:
-    """How a walk finds the ends of the labyrinth.
+    """How a walk finds the ends of the labyrinth."""
 
-    Attributes:
-        new: of each visit to an end, in order, how many different ones were found by then.
-        steps_to_all: moves until every place was entered; None if that never happened.
-    """
-
-    new: tuple[int, ...]
-    steps_to_all: int | None
+    new: tuple[int, ...]  # of each visit to an end, in order, how many different ones were found by then
+    steps_to_all: int | None  # moves until every place was entered; None if that never happened
 
     @property
     def half(self) -> int | None:
@@ -119,15 +112,11 @@ def explored(seed: int, settings: Settings, *, most: int) -> list[int]:
 
 @dataclass(frozen=True, slots=True)
 class Trips:
-    """Ways home and to the port after the first water.
+    """Ways home and to the port after the first water."""
 
-    Attributes:
-        to_port: bouts in which the port was visited, and how often the way there from home was the shortest.
-        home: bouts, and how often the way home from the last end was the shortest.
-    """
-
+    # bouts in which the port was visited, and how often the way there from home was the shortest
     to_port: tuple[int, int]
-    home: tuple[int, int]
+    home: tuple[int, int]  # bouts, and how often the way home from the last end was the shortest
 
 
 def trips_of(route: Route, ground: Ground) -> Trips | None:

@@ -1,20 +1,13 @@
 """Figures of the study `mice`."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...behaviour import Ground
 from ...views import theme_of
-from .figures import legend_below, panels
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-else:  # imported when something is drawn
-    Figure = Any
+from .figures import Figure, legend_below, panels
 
 COLOURS = {"animals": "#000000", "cogmap": "#0072b2", "biased": "#e69f00", "random": "#999999", "fitted": "#d55e00"}
 LABELS = {

@@ -1,7 +1,5 @@
 """What recorded animals choose under each model, and which terms the whole model needs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any

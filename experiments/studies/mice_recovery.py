@@ -1,7 +1,5 @@
 """Simulated individuals of the study `mice`: are parameters and models found again?"""
 
-from __future__ import annotations
-
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -22,8 +20,7 @@ TRUE = {
     "lapse": 0.08,
 }
 FORGETTING = {"novelty": 0.03, "cogmap": 0.05, "habit+cogmap": 0.05}
-SPREAD = 1.0
-"""Standard deviation of the habits that are drawn; that of going back has its mean at minus one."""
+SPREAD = 1.0  # standard deviation of the habits that are drawn; that of going back has its mean at minus one
 
 
 def truth(model: ChoiceModel, seed: int) -> dict[str, float]:

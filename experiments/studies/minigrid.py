@@ -1,7 +1,5 @@
 """The study `minigrid`: from pixels to places, beside the authors' published figures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -69,11 +67,9 @@ class Bodies(Study[Task, BodyRun]):
     cases: tuple[str, ...] = CASES
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[Task]:
-        """Each case with every seed."""
         return [(case, seed) for case in self.cases for seed in seeds]
 
     def run(self, task: Task, settings: Settings) -> BodyRun:
-        """One run."""
         case, seed = task
         if case.startswith("white"):
             world = load_embodied("3x4", view="rgb", white=True, seed=seed, turned=True)
@@ -95,7 +91,6 @@ class Bodies(Study[Task, BodyRun]):
         return BodyRun(case, seed, there, *low, *flat)
 
     def summarise(self, rows: Sequence[BodyRun]) -> Findings:
-        """Shares and means by case."""
         table = [_row(case, [row for row in rows if row.case == case]) for case in self.cases]
         lines = ["  ".join(f"{key} {'-' if value is None else value}" for key, value in row.items()) for row in table]
         failed = [f"{row.case}, seed {row.seed}: not there" for row in rows if not row.done]

@@ -1,7 +1,5 @@
 """The study `rooms`: the paper's figure of the steps until every room has been entered once."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -45,7 +43,6 @@ class Rooms(Explorations):
     models: tuple[str, ...] = ("cogmap", "frontier", "random", *CSCG)
 
     def summarise(self, rows: Sequence[Row]) -> Findings:
-        """Means by maze and model, and the paper's claim."""
         grid = self.grid(rows)
         claims = [_claim(grid, world, agent) for world in self.worlds if (agent := self.best(grid, world))]
         lines = [f"steps until every room was entered once, mean ± standard deviation; {LEGEND}"]

@@ -1,7 +1,5 @@
 """Studies run and written: one of them, or every one and the page that leads to their reports."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext

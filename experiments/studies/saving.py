@@ -1,7 +1,5 @@
 """What a study leaves in its folder: JSON, tables as CSV, figures, and a report as Markdown and HTML."""
 
-from __future__ import annotations
-
 import os
 import platform
 import re

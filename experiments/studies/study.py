@@ -1,7 +1,5 @@
 """What a study is: what it asks, what is run, and what the rows come to."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
@@ -138,7 +136,6 @@ class Kept(Study[Task, Row]):
     def completed(
         self, tasks: Sequence[Task], settings: Settings, executor: Executor | None, ledger: Ledger | None
     ) -> Iterator[tuple[int, Row]]:
-        """Number of the task and its row."""
         number = {self.key(task): i for i, task in enumerate(tasks)}
         for row in self.made(tasks, settings, executor, ledger):
             yield number[row.key], row
@@ -165,11 +162,7 @@ def studies() -> dict[str, AnyStudy]:
 
 
 def study_named(name: str) -> AnyStudy:
-    """The study of that name.
-
-    Raises:
-        CogmapError: there is none.
-    """
+    """The study of that name. Raises CogmapError: there is none."""
     if name not in studies():
         raise CogmapError(f"no study is called {name!r}; choose one of {', '.join(studies())}, or {EVERYTHING}")
     return studies()[name]

@@ -12,8 +12,7 @@ from typing import Any
 Value = str | int | float | bool | None  # what stands in a table
 
 MAIN = ("rows", "runs")  # what a study calls its main rows
-MOST_ROWS, MOST_COLUMNS = 45, 9
-"""Of a table read off JSON that the report shows."""
+MOST_ROWS, MOST_COLUMNS = 45, 9  # of a table read off JSON that the report shows
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,5 @@
 """The paper's study of remapping: three blocks of runs in Tolman's maze, by the routes that were taken."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -71,7 +69,6 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
         return [(own, seed) for seed in seeds] + others
 
     def run(self, task: Task, settings: Settings) -> tuple[float, TolmanRow]:
-        """Three blocks with one memory."""
         value, seed = task
         agent, blocks = maze.new_agent(replace(settings, information_weight=value), seed), dict[str, Runs]()
         for block, closed in BLOCKS.items():
@@ -81,7 +78,6 @@ class Tolman(Study[Task, tuple[float, TolmanRow]]):
         return value, TolmanRow(seed, len(agent.map.places), after, blocks)
 
     def summarise(self, rows: Sequence[tuple[float, TolmanRow]]) -> Findings:
-        """The counts of the study's own value, and how near each value comes to the paper's table."""
         by_value = {value: [row for other, row in rows if other == value] for value, _ in rows}
         agents, knob = by_value[rows[0][0]], [_setting(value, by_value[value]) for value in sorted(by_value)]
         blocks = next(setting["blocks"] for setting in knob if setting["value"] == rows[0][0])

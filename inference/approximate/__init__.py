@@ -1,7 +1,5 @@
 """Approximations of inference, for graphs that are too large for the exact engines. Each says that it is one."""
 
-from __future__ import annotations
-
 from .loopy import Loopy, LoopyReport
 from .sampling import Sampling, SamplingReport
 

@@ -18,35 +18,25 @@ from ...model import CogmapError, Factor, FloatArray, IntArray
 from ..errors import impossible
 from ..exact import Problem, Solution, in_logs
 
-ZERO = -1e8
-"""Stands for log 0."""
+ZERO = -1e8  # stands for log 0
 
 
 @dataclass(frozen=True, slots=True)
 class Loopy:
     """Loopy belief propagation, an approximation.
 
-    Attributes:
-        damping: part of the log of a message that stays as it was, 0 or more, below 1.
-        iterations: rounds at most.
-        tolerance: it has converged where no marginal changes by more in a round.
-
     Raises:
         CogmapError: an option is out of its range.
     """
 
-    damping: float = 0.5
-    iterations: int = 2000
-    tolerance: float = 1e-9
+    name: ClassVar[str] = "loopy"  # of the engine
+    damping: float = 0.5  # part of the log of a message that stays as it was, 0 or more, below 1
+    iterations: int = 2000  # rounds at most
+    tolerance: float = 1e-9  # it has converged where no marginal changes by more in a round
 
     def __post_init__(self) -> None:
         if not (0 <= self.damping < 1 and self.iterations >= 1 and self.tolerance > 0):
             raise CogmapError("loopy: give damping in [0, 1), 1 iteration or more, and a tolerance above 0")
-
-    @property
-    def name(self) -> str:
-        """What the engine is called."""
-        return "loopy"
 
     def solve(self, problem: Problem) -> LoopySolution:
         """Beliefs of all nodes and tables.
@@ -66,17 +56,11 @@ class Loopy:
 
 @dataclass(frozen=True, slots=True)
 class LoopyReport:
-    """How loopy belief propagation went.
+    """How loopy belief propagation went."""
 
-    Attributes:
-        converged: whether it settled; where it did not, its numbers mean little.
-        iterations: rounds that it took.
-        change: largest change of a marginal in the last of them.
-    """
-
-    converged: bool
-    iterations: int
-    change: float
+    converged: bool  # whether it settled; where it did not, its numbers mean little
+    iterations: int  # rounds that it took
+    change: float  # largest change of a marginal in the last of them
 
     def __str__(self) -> str:
         how = (
@@ -87,23 +71,14 @@ class LoopyReport:
 
 @dataclass(frozen=True, slots=True)
 class LoopySolution(Solution):
-    """Beliefs of nodes and tables.
+    """Beliefs of nodes and tables."""
 
-    Attributes:
-        problem: what was asked.
-        report: how it went.
-        nodes: `[cardinality]` belief of each node.
-        scopes: nodes of each table of several nodes.
-        tables: belief of each of these.
-        log_evidence: minus Bethe's free energy; neither a bound nor exact, but on trees.
-    """
-
-    problem: Problem
-    report: LoopyReport
-    nodes: Sequence[FloatArray]
-    scopes: Sequence[tuple[int, ...]]
-    tables: Sequence[FloatArray]
-    log_evidence: float
+    problem: Problem  # what was asked
+    report: LoopyReport  # how it went
+    nodes: Sequence[FloatArray]  # `[cardinality]` belief of each node
+    scopes: Sequence[tuple[int, ...]]  # nodes of each table of several nodes
+    tables: Sequence[FloatArray]  # belief of each of these
+    log_evidence: float  # minus Bethe's free energy; neither a bound nor exact, but on trees
     instead: ClassVar[str] = "use an exact engine, or engine='sampling'"
 
     def joint(self, names: Sequence[str]) -> FloatArray:
@@ -121,18 +96,9 @@ class LoopySolution(Solution):
         )
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """Of a large sparse factor the entries that agree with the evidence, and the belief of each; else None."""
-        if factor.label not in self.problem.entries:
-            return None
-        (node, mapping), rows = self.problem.entries[factor.label]
-        assert node is not None
-        p = self.nodes[node]
-        if mapping is None:
-            return rows, p
-        return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
+        return self.problem.listed(factor, self.nodes.__getitem__)
 
     def standard_error(self, names: Sequence[str]) -> FloatArray:
-        """Not known."""
         raise CogmapError(f"loopy: how far its marginals are off is not known; {self.instead}")
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -24,34 +25,21 @@ Part = tuple[tuple[int, ...], Table]
 class Sampling:
     """Importance sampling, an approximation with standard errors.
 
-    Attributes:
-        samples: number of samples.
-        seed: of the random numbers.
-        largest: entries of the largest product of the proposal; more make better samples.
-
     Raises:
         CogmapError: an option is out of its range.
     """
 
-    samples: int = 10_000
-    seed: int = 0
-    largest: float = 2e4
+    name: ClassVar[str] = "sampling"  # of the engine
+    samples: int = 10_000  # number of samples
+    seed: int = 0  # of the random numbers
+    largest: float = 2e4  # entries of the largest product of the proposal; more make better samples
 
     def __post_init__(self) -> None:
         if self.samples < 2 or self.largest < 1:
             raise CogmapError("sampling: give 2 samples or more, and largest=1 or more")
 
-    @property
-    def name(self) -> str:
-        """What the engine is called."""
-        return "sampling"
-
     def solve(self, problem: Problem) -> SamplingSolution:
-        """Weighted samples of all variables.
-
-        Raises:
-            CogmapError: no sample has a weight above 0.
-        """
+        """Weighted samples of all variables. Raises CogmapError: no sample has a weight above 0."""
         rng = np.random.default_rng(self.seed)
         order = plan_elimination(problem, memory=math.inf).order
         parts, log_bound = _parts(problem, order, self.largest)
@@ -78,20 +66,15 @@ class Sampling:
 
 @dataclass(frozen=True, slots=True)
 class SamplingReport:
-    """How good the samples are.
+    """How good the samples are."""
 
-    Attributes:
-        samples: number of samples.
-        effective_samples: number of equally weighted samples that are worth as much; below some hundred the standard
-            errors cannot be relied on.
-        log_evidence_error: standard error of log Z.
-        log_evidence_bound: log Z is at most this; far above the estimate, the samples may have missed what matters,
-            and the standard errors with them.
-    """
-
-    samples: int
+    samples: int  # number of samples
+    # number of equally weighted samples that are worth as much; below some hundred the standard errors cannot
+    # be relied on
     effective_samples: float
-    log_evidence_error: float
+    log_evidence_error: float  # standard error of log Z
+    # log Z is at most this; far above the estimate, the samples may have missed what matters, and the standard
+    # errors with them
     log_evidence_bound: float
 
     def __str__(self) -> str:
@@ -100,24 +83,15 @@ class SamplingReport:
 
 @dataclass(frozen=True, slots=True)
 class SamplingSolution(Solution):
-    """Weighted samples.
+    """Weighted samples."""
 
-    Attributes:
-        problem: what was asked.
-        report: how good the samples are.
-        drawn: `[variables, samples]` indices of labels.
-        weights: `[samples]`, summing to 1.
-        log_evidence: log of the mean weight; Z itself is estimated without bias.
-    """
-
-    problem: Problem
-    report: SamplingReport
-    drawn: IntArray
-    weights: FloatArray
-    log_evidence: float
+    problem: Problem  # what was asked
+    report: SamplingReport  # how good the samples are
+    drawn: IntArray  # `[variables, samples]` indices of labels
+    weights: FloatArray  # `[samples]`, summing to 1
+    log_evidence: float  # log of the mean weight; Z itself is estimated without bias
 
     def joint(self, names: Sequence[str]) -> FloatArray:
-        """Estimate of P(names | evidence), one axis a name."""
         return self._counted(names, self.weights)
 
     def standard_error(self, names: Sequence[str]) -> FloatArray:

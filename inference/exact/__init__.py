@@ -1,7 +1,5 @@
 """The exact engines: bucket elimination in numpy, gtsam, and enumeration."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 
 from ...model import FactorGraph

@@ -1,7 +1,5 @@
 """The oracle: every assignment enumerated, in log space. For small graphs and for tests."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,34 +16,24 @@ MOST_ASSIGNMENTS = 2_000_000
 
 @dataclass(frozen=True, slots=True)
 class BruteSolution(Solution):
-    """All assignments with their posterior.
+    """All assignments with their posterior."""
 
-    Attributes:
-        graph: the graph.
-        log_evidence: log Z.
-        assignments: `[n, variables]` label indices, n assignments that fit the evidence.
-        probabilities: `[n]` posterior of each.
-    """
-
-    graph: FactorGraph
-    log_evidence: float
-    assignments: IntArray
-    probabilities: FloatArray
+    graph: FactorGraph  # the graph
+    log_evidence: float  # log Z
+    assignments: IntArray  # `[n, variables]` label indices, n assignments that fit the evidence
+    probabilities: FloatArray  # `[n]` posterior of each
 
     def joint(self, names: Sequence[str]) -> FloatArray:
-        """P(names | evidence), one axis a name."""
         column = self.graph.wiring.number
         result = np.zeros([self.graph.variable_named(name).cardinality for name in names])
         np.add.at(result, tuple(self.assignments[:, column[name]] for name in names), self.probabilities)
         return result
 
     def entropy(self) -> float:
-        """H = -Σ_x P(x) log P(x), in nats."""
         positive = self.probabilities[self.probabilities > 0]
         return -float(positive @ np.log(positive))
 
     def sample(self, count: int, rng: np.random.Generator) -> IntArray:
-        """`[variables, count]` indices of labels, drawn from the posterior."""
         return self.assignments[rng.choice(len(self.probabilities), size=count, p=self.probabilities)].T
 
 

@@ -1,7 +1,5 @@
 """The backward pass: from P(x_i | S_i) of every bucket to its belief P(x_i, S_i), and what is read off beliefs."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -16,26 +14,17 @@ from .tables import Table
 
 @dataclass(frozen=True, slots=True)
 class BucketTree(Solution):
-    """A tree of buckets in order of elimination; each is calibrated when it is asked for.
+    """A tree of buckets in order of elimination; each is calibrated when it is asked for."""
 
-    Attributes:
-        plan: the buckets.
-        given: index of each node that was sliced out.
-        inputs: the tables of the problem.
-        log_evidence: log Z.
-        over: for each bucket, one axis a node: over / by is P(x_i | S_i); once it is calibrated, P(x_i, S_i | evidence)
-            stands in its place.
-        by: for each bucket the sum of its `over`, as it was, over x_i.
-        memory: bytes that a joint may take that needs an elimination of its own.
-    """
-
-    plan: Buckets
-    given: dict[int, int]
-    inputs: Sequence[Table]
-    log_evidence: float
+    plan: Buckets  # the buckets
+    given: dict[int, int]  # index of each node that was sliced out
+    inputs: Sequence[Table]  # the tables of the problem
+    log_evidence: float  # log Z
+    # for each bucket, one axis a node: over / by is P(x_i | S_i); once it is calibrated, P(x_i, S_i | evidence)
+    # stands in its place
     over: list[FloatArray]
-    by: Sequence[FloatArray]
-    memory: float
+    by: Sequence[FloatArray]  # for each bucket the sum of its `over`, as it was, over x_i
+    memory: float  # bytes that a joint may take that needs an elimination of its own
     _calibrated: set[int] = field(default_factory=set[int], repr=False, compare=False)
 
     def joint(self, names: Sequence[str]) -> FloatArray:
@@ -91,15 +80,7 @@ class BucketTree(Solution):
         return self.over[at]
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
-        if factor.label not in self.plan.problem.entries:
-            return None
-        (node, mapping), rows = self.plan.problem.entries[factor.label]
-        assert node is not None
-        p = self.nodes((node,))
-        if mapping is None:
-            return rows, p
-        return rows, np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
+        return self.plan.problem.listed(factor, lambda node: self.nodes((node,)))
 
     def entropy(self) -> float:
         """H = Σ_i H(x_i, S_i) - H(S_i), in nats."""

@@ -5,8 +5,6 @@ bucket of the next node to leave. What is known is sliced out of the tables firs
 is observed, and a second pass makes anew only what hangs on tables that have changed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
@@ -41,25 +39,16 @@ class Input(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Buckets:
-    """Buckets in order of elimination; made once for an order and the nodes that are known.
+    """Buckets in order of elimination; made once for an order and the nodes that are known."""
 
-    Attributes:
-        problem: the tables.
-        scopes: for each bucket its nodes, the eliminated one first, then its separator by order.
-        shapes: number of labels of each of these.
-        place: bucket of each node; nodes that are kept come after all others.
-        inputs: for each bucket the tables that wait at it.
-        children: for each bucket the buckets whose messages wait at it, with what these are reshaped to.
-        loose: tables over known nodes only, and over kept ones.
-    """
-
-    problem: Problem
-    scopes: Sequence[Shape]
-    shapes: Sequence[Shape]
-    place: Mapping[int, int]
-    inputs: Sequence[Sequence[Input]]
+    problem: Problem  # the tables
+    scopes: Sequence[Shape]  # for each bucket its nodes, the eliminated one first, then its separator by order
+    shapes: Sequence[Shape]  # number of labels of each of these
+    place: Mapping[int, int]  # bucket of each node; nodes that are kept come after all others
+    inputs: Sequence[Sequence[Input]]  # for each bucket the tables that wait at it
+    # for each bucket the buckets whose messages wait at it, with what these are reshaped to
     children: Sequence[Sequence[tuple[int, Shape | None]]]
-    loose: Sequence[Input]
+    loose: Sequence[Input]  # tables over known nodes only, and over kept ones
 
     def parent(self, at: int) -> int | None:
         """The bucket that the message of this one goes to; None where it has no separator."""
@@ -107,25 +96,17 @@ def buckets(problem: Problem, plan: Elimination, *, known: Collection[int] = (),
 
 @dataclass(frozen=True, slots=True)
 class Pass:
-    """What a forward pass leaves behind.
+    """What a forward pass leaves behind."""
 
-    Attributes:
-        buckets: the buckets.
-        given: index of each known node.
-        tables: the tables of the problem, as they were.
-        over: for each bucket, one axis a node; over / by is P(x_i | S_i, evidence so far), or its maximum is.
-        by: for each bucket the sum (or maximum) of `over` over x_i.
-        messages: the message of each bucket.
-        log_scale: log of the sum (or maximum) of the whole product; with kept nodes, what the last message is to be
-            multiplied by.
-    """
-
-    buckets: Buckets
-    given: Mapping[int, int]
-    tables: Sequence[Table]
+    buckets: Buckets  # the buckets
+    given: Mapping[int, int]  # index of each known node
+    tables: Sequence[Table]  # the tables of the problem, as they were
+    # for each bucket, one axis a node; over / by is P(x_i | S_i, evidence so far), or its maximum is
     over: Sequence[FloatArray]
-    by: Sequence[FloatArray]
-    messages: Sequence[Table]
+    by: Sequence[FloatArray]  # for each bucket the sum (or maximum) of `over` over x_i
+    messages: Sequence[Table]  # the message of each bucket
+    # log of the sum (or maximum) of the whole product; with kept nodes, what the last message is to be
+    # multiplied by
     log_scale: float
 
 

@@ -1,7 +1,5 @@
 """The numpy engine: exact sum-product and max-product by bucket elimination, in logs where plain numbers fall short."""
 
-from __future__ import annotations
-
 import heapq
 from collections.abc import Collection, Iterator, Sequence
 
@@ -33,7 +31,7 @@ def maximise(problem: Problem, order: Order, memory: float) -> list[int]:
     return traced(forward(buckets(problem, plan), problem.tables, maximum=True))
 
 
-def traced(done: Pass, known: Collection[int] = ()) -> list[int]:
+def traced(done: Pass) -> list[int]:
     """Index of each node that attains the maximum."""
     values = [0] * len(done.buckets.problem.cards)
     for node, index in done.given.items():

@@ -27,8 +27,7 @@ if TYPE_CHECKING:
     import gtsam
 
 LARGEST_CLUSTER = 1e6
-TOLERANCE = 1e-9
-"""By how much log Z may differ from the one of the numpy engine; 1e-14 of its own size is rounding."""
+TOLERANCE = 1e-9  # by how much log Z may differ from the one of the numpy engine; 1e-14 of its own size is rounding
 
 
 def solve(problem: Problem, order: Order, memory: float) -> BucketTree:

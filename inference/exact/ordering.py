@@ -1,7 +1,5 @@
 """Elimination orders: along time, by minimum weight, by minimum fill, or as told; and what they cost."""
 
-from __future__ import annotations
-
 import heapq
 import math
 from collections.abc import Callable, Collection, Iterable, Sequence
@@ -24,19 +22,12 @@ Cost = Callable[[int, Neighbours, Sequence[float]], tuple[float, ...]]
 
 @dataclass(frozen=True, slots=True)
 class Elimination:
-    """Which node goes when.
+    """Which node goes when."""
 
-    Attributes:
-        order: the nodes.
-        around: the separator of each: the nodes that its message speaks of.
-        entries: entries of all clusters (a node and its separator) and messages.
-        filled: pairs of nodes that had no table in common before.
-    """
-
-    order: Sequence[int]
-    around: Sequence[frozenset[int]]
-    entries: float
-    filled: int
+    order: Sequence[int]  # the nodes
+    around: Sequence[frozenset[int]]  # the separator of each: the nodes that its message speaks of
+    entries: float  # entries of all clusters (a node and its separator) and messages
+    filled: int  # pairs of nodes that had no table in common before
 
     def largest(self, cards: Sequence[int]) -> list[int]:
         """The nodes of the largest cluster."""

@@ -1,9 +1,7 @@
 """A graph and its evidence, reduced to what an engine has to sum over."""
 
-from __future__ import annotations
-
 import math
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,8 +12,7 @@ from ..evidence import Given
 from .substitution import Scope, substitute
 from .tables import Table
 
-DENSE = 2**16
-"""Entries up to which a sparse factor is written out."""
+DENSE = 2**16  # entries up to which a sparse factor is written out
 
 Where = tuple[int | None, IntArray | int | None]
 
@@ -27,30 +24,20 @@ class Problem:
     Nodes are variables, and the entries of large sparse factors. Observed variables and those of one label are sliced
     away. A variable that another node determines (a one-hot table between the two) is replaced by it where that costs
     nothing, see `substitution`; so a sparse factor is a node, its entries, that determines every variable in its scope.
-
-    Attributes:
-        graph: the graph asked about.
-        given: what is known.
-        names: name of each node, for people; tables speak of nodes by number.
-        cards: number of labels of each, all at least 2.
-        times: time step of each.
-        scopes: the nodes of each table.
-        tables: the tables, one axis a node.
-        log_scale: log of the product of all factors over known variables only.
-        where: for each variable of the graph, by number: (node that carries it or None, map from that one's labels to
-            its own, or the fixed index, or None where they are the same).
-        entries: where the number of the entry of a large sparse factor is, and the entries `[k, n]`, by its label.
     """
 
-    graph: FactorGraph
-    given: Given
-    names: Sequence[str]
-    cards: Sequence[int]
-    times: Sequence[int | None]
-    scopes: Sequence[Scope]
-    tables: Sequence[Table]
-    log_scale: float
+    graph: FactorGraph  # the graph asked about
+    given: Given  # what is known
+    names: Sequence[str]  # name of each node, for people; tables speak of nodes by number
+    cards: Sequence[int]  # number of labels of each, all at least 2
+    times: Sequence[int | None]  # time step of each
+    scopes: Sequence[Scope]  # the nodes of each table
+    tables: Sequence[Table]  # the tables, one axis a node
+    log_scale: float  # log of the product of all factors over known variables only
+    # for each variable of the graph, by number: (node that carries it or None, map from that one's labels to
+    # its own, or the fixed index, or None where they are the same)
     where: Mapping[int, Where]
+    # where the number of the entry of a large sparse factor is, and the entries `[k, n]`, by its label
     entries: Mapping[str, tuple[Where, IntArray]]
 
     def located(self, names: Sequence[str]) -> list[Where]:
@@ -78,6 +65,17 @@ class Problem:
         size = math.prod(shape)
         counted = np.bincount(flat.ravel(), weights=joint.ravel(), minlength=size)
         return np.asarray(counted, dtype=np.float64).reshape(shape)
+
+    def listed(self, factor: Factor, marginal: Callable[[int], FloatArray]) -> tuple[IntArray, FloatArray] | None:
+        """Of a large sparse factor the entries that are possible, and P of each, from that of its node; else None."""
+        if factor.label not in self.entries:
+            return None
+        (node, mapping), rows = self.entries[factor.label]
+        assert node is not None
+        p = marginal(node)
+        if mapping is not None:
+            p = np.asarray(np.bincount(np.asarray(mapping), weights=p, minlength=len(rows)), dtype=np.float64)
+        return rows, p
 
     def nodes(self, names: Sequence[str]) -> tuple[int, ...]:
         """The nodes that carry `names`, each once, in order of appearance."""

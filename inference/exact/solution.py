@@ -1,7 +1,5 @@
 """What an engine leaves behind."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import ClassVar

@@ -1,7 +1,5 @@
 """Variables that another one determines are replaced by it: a ladder of (s, p) becomes a chain of s."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

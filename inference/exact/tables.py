@@ -15,8 +15,7 @@ import numpy as np
 
 from ...model import FloatArray, log_bounds
 
-LIMIT = 600.0
-"""Nats from 1 within which products are taken in plain numbers; a float reaches 708."""
+LIMIT = 600.0  # nats from 1 within which products are taken in plain numbers; a float reaches 708
 
 
 class Table(NamedTuple):

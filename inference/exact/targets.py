@@ -1,7 +1,5 @@
 """A few targets without the rest: what cannot tell anything about them is left out."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
@@ -17,19 +15,12 @@ from .solution import Solution
 
 @dataclass(frozen=True, slots=True)
 class TargetSolution(Solution):
-    """The posterior of some variables.
+    """The posterior of some variables."""
 
-    Attributes:
-        graph: the graph.
-        given: what is known.
-        memory: bytes that a query may take.
-        tree: of what is left of the graph.
-    """
-
-    graph: FactorGraph
-    given: Given
-    memory: float
-    tree: BucketTree
+    graph: FactorGraph  # the graph
+    given: Given  # what is known
+    memory: float  # bytes that a query may take
+    tree: BucketTree  # of what is left of the graph
     instead: ClassVar[str] = "ask without `targets`"
 
     @property
@@ -42,11 +33,9 @@ class TargetSolution(Solution):
         return elimination.solve(problem, None, self.memory).log_evidence
 
     def joint(self, names: Sequence[str]) -> FloatArray:
-        """P(names | evidence), one axis a name; each of them a target."""
         return self.tree.joint(names)
 
     def entries(self, factor: Factor) -> tuple[IntArray, FloatArray] | None:
-        """Of a large sparse factor the entries that agree with the evidence, and P of each; else None."""
         return self.tree.entries(factor)
 
 

@@ -7,11 +7,8 @@ from typing import NamedTuple
 
 from .hypothesis import Hypothesis
 
-AGAIN, SELDOM = 16, 512
-"""Steps after which a folding that was too improbable is tried again: at first, and at most."""
-
-CONTRADICTED = -16
-"""Nats below which a folding is contradicted by what was read, and not only by how large the map is."""
+AGAIN, SELDOM = 16, 512  # steps after which a folding that was too improbable is tried again: at first, and at most
+CONTRADICTED = -16  # nats below which a folding is contradicted by what was read, and not only by how large the map is
 
 Attempt = tuple[int, int, bool, int]
 """The places, whether their chart closes on itself, and how the one lies to the other."""
@@ -45,8 +42,7 @@ class Tried(NamedTuple):
         return Tried(time, wait, h.size, h.links, ceil(worth))
 
 
-NEVER = Tried(-SELDOM - 1, 0, -1, -1, 0)
-"""What was not tried yet."""
+NEVER = Tried(-SELDOM - 1, 0, -1, -1, 0)  # what was not tried yet
 
 
 def attempt(h: Hypothesis, one: int, other: int, *, period: bool) -> Attempt:

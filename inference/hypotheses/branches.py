@@ -27,6 +27,9 @@ SQUARES = 0.1
 FEW = 512
 """Places up to which all are looked at when the agent is told that it was moved."""
 
+ASLEEP = -2
+"""Stands for any way that is not thought of."""
+
 FAINT = 18.0
 """Nats below which a place of a crowd is let go."""
 
@@ -92,6 +95,8 @@ class Walker:
         floor: log weight below which branches need not be named.
         surplus: how far above zero a log-likelihood may be.
         fails: P(the move failed | its way is open).
+        given: the way that was to be taken; `NOWHERE` for staying.
+        astray: P(another one was taken).
         unseen: places that are thought to be there but were never seen.
         put_there: log P(the agent was moved into a certain place).
         arrived: places that a branch leads to with no change of the map.
@@ -105,29 +110,33 @@ class Walker:
         self.floor = -inf
         self.surplus = 0.0 if sensed.others is None else inf
         self.fails = max(self.chances.fails, sensed.fails)
+        self.given = NOWHERE if sensed.action is None else sensed.action
+        self.astray = 0.0 if sensed.certain else self.chances.astray
         self.unseen = unseen(h)
         self.put_there = (0.0 if sensed.told else log(self.chances.moved)) - log(h.size + self.unseen)
         self.arrived: set[int] = set()
 
     def moves(self) -> Iterator[Alternative]:
         """All branches but those that are far below `floor`."""
-        h, action, chances = self.h, self.sensed.action, self.chances
+        h, given = self.h, self.given
         if self.sensed.told:
             yield from self._moved()
             return
-        astray = 0.0 if self.sensed.certain else chances.astray
-        each = astray / h.scheme.count
-        stayed = h.weight + log(1.0 - chances.moved)
-        if action is not None:
-            yield from self._walk(action, stayed + log(1.0 - astray), 0.0)
-        staying = self.stay(stayed, astray, each)
+        stayed = h.weight + log(1.0 - self.chances.moved)
+        if given != NOWHERE:
+            yield from self._walk(given, stayed + log(1.0 - self.astray), 0.0)
+        staying = self.stay(stayed)
         if staying is not None:
             yield staying
-        if each > 0.0 and stayed + log(each) > self.floor - self.surplus:
+        if self.astray > 0.0 and stayed + log(self.astray) > self.floor - self.surplus:
             for way in h.awake:
-                if way != action:
-                    yield from self._walk(way, stayed + log(each), 1.0)
+                if way != given and (each := stayed + log(self.each(way))) > self.floor - self.surplus:
+                    yield from self._walk(way, each, 1.0)
         yield from self._moved()
+
+    def each(self, way: int) -> float:
+        """P(this way was taken, and another one was given)."""
+        return self.astray * self.h.slip(self.given, way)
 
     def open(self, way: int) -> float:
         """P(open) of a way of the place it is in."""
@@ -136,13 +145,12 @@ class Walker:
             found = self._open[way] = probability(way_odds(self.h, self.h.here, self.place, way))
         return found
 
-    def stay(self, before: float, astray: float, each: float) -> Alternative | None:
+    def stay(self, before: float) -> Alternative | None:
         """It is where it was: told to stay, blocked, failed, or put there; None if that is below the floor."""
-        action, fails = self.sensed.action, self.fails
+        action, fails, astray = self.sensed.action, self.fails, self.astray
         self.arrived.add(self.h.here)
         stays = {way: 1.0 - self.open(way) * (1.0 - fails) for way in self.h.awake}
-        asleep = self.h.scheme.count - len(stays)
-        lost = each * ((action is not None) + asleep + sum(p for way, p in stays.items() if way != action))
+        lost = astray * slips_into_staying(self.h, self.given, stays)
         given = (1.0 - astray) * (1.0 if action is None else stays[action])
         failed = 0.0 if action is None else (1.0 - astray) * self.open(action) * fails
         put_here = exp(self.put_there + self.h.weight - before)
@@ -221,6 +229,14 @@ class Walker:
         if found is None:
             found = self.evidence[number] = log_likelihood(self.h, number, self.sensed)
         return found
+
+
+def slips_into_staying(h: Hypothesis, given: int, stays: Mapping[int, float]) -> float:
+    """P(it stayed | another way than the one given was taken), by how each of those that are thought of keeps it."""
+    asleep = h.scheme.count - len(stays)
+    lost = sum(h.slip(given, way) * p for way, p in stays.items() if way != given)
+    lost += 0.0 if given == NOWHERE else h.slip(given, NOWHERE)
+    return lost + (asleep * h.slip(given, ASLEEP) if asleep else 0.0)
 
 
 def unseen(h: Hypothesis) -> float:

@@ -30,7 +30,7 @@ class _Calm:
         self.h, self.sensed, self.chances = h, sensed, h.chances
         self.walker = Walker(h, sensed)
         self.ways = self._best_ways()
-        self.astray = 0.0 if sensed.certain else h.chances.astray
+        self.astray = self.walker.astray
         self.stayed = h.weight + log(1.0 - h.chances.moved)
         self.put_there = h.weight + self.walker.put_there
         self.new: float | None = None
@@ -59,9 +59,8 @@ class _Calm:
 
     def _main(self, lead: Lead | None) -> Alternative:
         h, action, walker = self.h, self.sensed.action, self.walker
-        each = self.astray / h.scheme.count
         if action is None or lead is None or walker.open(action) < 0.5:
-            staying = walker.stay(self.stayed, self.astray, each)
+            staying = walker.stay(self.stayed)
             assert staying is not None  # its floor is below everything
             return staying
         before = self.stayed + log(1.0 - self.astray) + log(walker.open(action) * (1.0 - walker.fails))
@@ -96,10 +95,10 @@ class _Calm:
         h, action = self.h, self.sensed.action
         if not self.astray:
             return True
-        each = log(self.astray / h.scheme.count) + self.stayed
         for way in h.awake:
             if way == action:
                 continue
+            each = log(self.walker.each(way)) + self.stayed
             lead = leads(h, h.here, self.walker.place, way)
             if lead.to != NOWHERE and log(exp(each) + exp(self.put_there)) + self._at(lead.to) > floor:
                 return False

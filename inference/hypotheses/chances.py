@@ -1,7 +1,5 @@
 """The rates of one hypothesis at one step, ready for use."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import log
 
@@ -23,8 +21,7 @@ from .rates import (
     RateCounts,
 )
 
-SUREST, LEAST_SURE = 1e-4, 0.45
-"""Bounds of the rates of misreading: a reading is never proof, and never worth nothing."""
+SUREST, LEAST_SURE = 1e-4, 0.45  # bounds of the rates of misreading: a reading is never proof, and never worth nothing
 
 MOST_MISREAD = 0.33
 """A sight is right twice in three times at least, or a long corridor would be one place, misread over and over."""

@@ -6,7 +6,7 @@ from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from math import log
 
-from .branches import Alternative
+from .branches import Alternative, slips_into_staying
 from .chances import Chances
 from .evidence import count_alike, label_shares, odds_beyond, probability, same_door, was_rebuilt, way_odds
 from .hypothesis import Hypothesis
@@ -67,11 +67,27 @@ def _count_how(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
     yes[MOVED] += branch.moved
     no[MOVED] += kept
     if branch.way == NOWHERE and branch.to == h.here and _unexplained(sensed):
+        _count_walls(h, sensed.action, kept)
         return
+    if branch.astray and branch.way != NOWHERE:
+        h.slipped(NOWHERE if sensed.action is None else sensed.action, branch.way, branch.astray)
     yes[ASTRAY] += branch.astray
     no[ASTRAY] += kept - branch.astray
     yes[FAILS] += branch.failed
     no[FAILS] += kept * (branch.way != NOWHERE)
+
+
+def _count_walls(h: Hypothesis, given: int | None, weight: float) -> None:
+    """A move did not lead on: another way may have been taken that is shut, as far as the one given is open."""
+    if given is None:
+        return
+    place, fails, astray = h.places[h.here], h.chances.fails, h.chances.astray
+    stays = {way: 1.0 - probability(way_odds(h, h.here, place, way)) * (1.0 - fails) for way in h.awake}
+    own = stays.pop(given, 1.0) * (1.0 - astray)
+    others = {way: astray * h.slip(given, way) * p for way, p in (stays | {NOWHERE: 1.0}).items()}
+    total = weight / (own + sum(others.values()))
+    for way, p in others.items():
+        h.slipped(given, way, total * p)
 
 
 def _unexplained(sensed: Sensed) -> bool:
@@ -337,13 +353,12 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
 
 def _stayed(h: Hypothesis, number: int, place: Place) -> tuple[float, float]:
     """Moves through open ways of a place that did not lead on, and the share of other actions that would not either."""
-    count, leads_on = h.scheme.count, 1.0 - h.chances.fails
+    leads_on = 1.0 - h.chances.fails
     opened = {way: probability(way_odds(h, number, place, way)) for way in h.awake}
     stays = {way: 1.0 - p * leads_on for way, p in opened.items()}
-    others = 1.0 + count - len(stays) + sum(stays.values())
     stayed = strayed = 0.0
     for way, p in opened.items():
-        failed = place.ways[way].stays * p
-        stayed += failed
-        strayed += failed * (others - stays[way]) / count
+        if failed := place.ways[way].stays * p:
+            stayed += failed
+            strayed += failed * slips_into_staying(h, way, stays)
     return stayed, strayed

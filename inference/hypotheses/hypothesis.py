@@ -29,6 +29,11 @@ FEW = 8
 OWN = 2.0
 """Looks at one way that count as much as all looks at any way."""
 
+EVEN, ROUND = 1.0, 0.25
+"""Concentration of what is taken instead of the way given, before anything was seen of it: of each way, and of the one
+that leads back. A slip seldom turns round: without that, a map that is turned would explain a slippery world as well.
+"""
+
 Key = tuple[int, Position]
 Label = tuple[int, int]
 
@@ -43,6 +48,8 @@ class Hypothesis:
         shown: the places that most probably have a sight, by (sensor, label).
         kinds: how many different sights they have, a sensor each.
         counts: of the rates.
+        slips: how often another way than the one given was taken, by (given, taken); by (given, given) how often any
+            was; `NOWHERE` stands for staying.
         undo: (times it did, times it did not) that an action led back, by (action, action after it); counted where
             it is not known beforehand which do.
         periods: of the charts that close on themselves, by frame.
@@ -63,7 +70,7 @@ class Hypothesis:
 
     __slots__ = (
         "apart", "at", "awake", "chances", "clan", "counts", "crowd", "digest", "here", "kinds", "links", "looks",
-        "origin", "periods", "places", "scheme", "shown", "size", "touched", "undo", "weight",
+        "origin", "periods", "places", "scheme", "shown", "size", "slips", "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -74,6 +81,7 @@ class Hypothesis:
         self.kinds = [0] * scheme.sensors
         self.counts = RateCounts()
         self.periods: dict[int, Periods] = {}
+        self.slips: dict[tuple[int, int], float] = {}
         self.undo: dict[tuple[int, int], tuple[float, float]] = {}
         self.looks = [(0.0, 0.0)] * scheme.count
         self.here = NOWHERE
@@ -92,11 +100,21 @@ class Hypothesis:
         other.scheme, other.chances = self.scheme, self.chances
         other.places, other.at, other.shown = self.places.fork(), self.at.fork(), self.shown.fork()
         other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
-        other.undo, other.looks = self.undo.copy(), self.looks.copy()
+        other.slips, other.undo, other.looks = self.slips.copy(), self.undo.copy(), self.looks.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
         other.origin, other.touched, other.digest = None, {}, self.digest
         other.apart, other.crowd, other.clan = self.apart, self.crowd, self.clan
         other.awake = self.awake
+        return other
+
+    def emptied(self) -> Hypothesis:
+        """One that goes on from nothing, in the same layers."""
+        other, new = self.fork(), Hypothesis(self.scheme)
+        for number in list(other.places):
+            other.remove(number)
+        for name in ("counts", "periods", "slips", "undo", "looks", "here", "weight", "links", "apart", "crowd"):
+            setattr(other, name, getattr(new, name))
+        other.digest, other.chances = 0, Chances(other.counts, self.chances.labels)
         return other
 
     @property
@@ -125,6 +143,20 @@ class Hypothesis:
         """P(a way is open) of a place of which nothing is known: some ways are open more often than others."""
         opened, blocked = self.looks[way]
         return (opened + OWN * self.chances.open) / (opened + blocked + OWN)
+
+    def slip(self, given: int, taken: int) -> float:
+        """P(a way is taken | another than the one given is): a Dirichlet a way given, that all places share."""
+        count, inverse = self.scheme.count, self.scheme.inverse
+        if not (slips := self.slips.get((given, given))):
+            return 1.0 / count
+        turns = taken >= 0 <= given and inverse is not None and inverse[given] == taken != given
+        prior = ROUND if turns else EVEN
+        return (self.slips.get((given, taken), 0.0) + prior) / (slips + EVEN * (count - 1) + ROUND)
+
+    def slipped(self, given: int, taken: int, weight: float) -> None:
+        """Count that another way than the one given was taken."""
+        for key in ((given, taken), (given, given)):
+            self.slips[key] = self.slips.get(key, 0.0) + weight
 
     def beyond(self, place: Place, way: int) -> Key | None:
         """The (frame, position) that a way leads to as far as poses say; None without poses."""

@@ -1,7 +1,5 @@
 """A tracker that begins with a map that is known."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from .chances import Chances

@@ -1,7 +1,5 @@
 """Sums of what is held as logarithms."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import exp, log
 

@@ -1,7 +1,5 @@
 """Looking back: what was passed over while nothing seemed in doubt is weighed again when something is."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -12,8 +10,7 @@ from .hypothesis import Hypothesis
 from .replaying import History
 from .scheme import Sensed
 
-BACK = 32
-"""Steps that are looked back on, at most."""
+BACK = 32  # steps that are looked back on, at most
 
 
 class Past(NamedTuple):

@@ -48,16 +48,12 @@ class TrackerOptions:
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """How the best hypothesis follows from the best one before.
+    """How the best hypothesis follows from the best one before."""
 
-    Attributes:
-        kind: `extended` if it is that one and this step, so that of its records only those of `places` have changed;
-            `revised` if another one has won, or places were united or taken away, or charts joined.
-        places: numbers of the records that this step has changed or added; empty if it is `revised`.
-    """
-
+    # `extended` if it is that one and this step, so that of its records only those of `places` have changed;
+    # `revised` if another one has won, or places were united or taken away, or charts joined
     kind: Literal["extended", "revised"]
-    places: tuple[int, ...] = ()
+    places: tuple[int, ...] = ()  # numbers of the records that this step has changed or added; empty if it is `revised`
 
 
 @dataclass(frozen=True, slots=True)

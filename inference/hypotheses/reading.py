@@ -1,7 +1,5 @@
 """What a hypothesis says: of ways, of sights, of its rates."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import exp, log
 from typing import NamedTuple

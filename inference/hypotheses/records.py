@@ -1,14 +1,11 @@
 """What a hypothesis holds of a place and of its ways; records are never changed, but replaced."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 NOWHERE = -1
 """Where a way leads that was never walked."""
 
-RECENT = 8
-"""Visits whose time is kept with a place."""
+RECENT = 8  # visits whose time is kept with a place
 
 Position = tuple[int, ...]
 SightCounts = dict[int, float]

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from dataclasses import replace
 from math import exp, log
 
-from .branches import leads
+from .branches import leads, slips_into_staying
 from .evidence import log_likelihood, probability, way_odds
 from .hypothesis import Hypothesis
 from .records import NOWHERE, RECENT, Place, Way
@@ -142,13 +142,15 @@ def _predicted(h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Co
     """Where the agent is before the sensed, with silent moves to every place evenly."""
     chances, action = h.chances, sensed.action
     ahead: dict[int, float] = {k: chances.moved / h.size for k in h.places if k not in skip}
-    each, fails = chances.astray / h.scheme.count, max(chances.fails, sensed.fails)
+    given, fails = NOWHERE if action is None else action, max(chances.fails, sensed.fails)
+    always = slips_into_staying(h, given, dict.fromkeys(h.awake, 0.0))
+    stays_anyway = (1.0 - chances.astray) * (action is None) + chances.astray * always
+    each = {way: chances.astray * h.slip(given, way) for way in h.awake}
     for number, p in belief.items():
         p *= 1.0 - chances.moved
-        place, stays = h.places[number], each if action is not None else 1.0 - chances.astray
-        stays += each * (h.scheme.count - len(h.awake))
+        place, stays = h.places[number], stays_anyway
         for way in h.awake:
-            q = p * (1.0 - chances.astray if way == action else each)
+            q = p * (1.0 - chances.astray if way == action else each[way])
             opened = probability(way_odds(h, number, place, way)) * (1.0 - fails)
             lead = leads(h, number, place, way)
             stays += (q / p) * (1.0 - opened)

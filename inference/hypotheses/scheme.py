@@ -1,7 +1,5 @@
 """What is known beforehand of the ways of a world, and what one step brings."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import isfinite
@@ -9,28 +7,21 @@ from math import isfinite
 from ...model import CogmapError
 from .records import Position
 
-Reading = int | Mapping[int, float] | None
-"""A label, by number; likelihoods of labels; or None: not seen."""
+Reading = int | Mapping[int, float] | None  # A label, by number; likelihoods of labels; or None: not seen
 
 
 @dataclass(frozen=True, slots=True)
 class WayScheme:
     """The ways that a place may have.
 
-    Attributes:
-        count: how many; a way is an action.
-        inverse: the action that undoes each; None where that is not known.
-        displacements: of each way, in Z^n; None without poses. They need `inverse`.
-        sensors: how many sensors of sights there are.
-
     Raises:
         CogmapError: the parts do not fit `count` ways.
     """
 
-    count: int
-    inverse: tuple[int, ...] | None = None
-    displacements: tuple[Position, ...] | None = None
-    sensors: int = 1
+    count: int  # how many; a way is an action
+    inverse: tuple[int, ...] | None = None  # the action that undoes each; None where that is not known
+    displacements: tuple[Position, ...] | None = None  # of each way, in Z^n; None without poses. They need `inverse`
+    sensors: int = 1  # how many sensors of sights there are
 
     def __post_init__(self) -> None:
         if self.count < 1 or self.sensors < 0:
@@ -50,29 +41,20 @@ class WayScheme:
 
 @dataclass(frozen=True, slots=True)
 class Sensed:
-    """What one step brings.
+    """What one step brings."""
 
-    Attributes:
-        sights: a reading of each sensor.
-        ways: P(open) of each way as it was read, or None where it was not looked at.
-        action: the way that was to be taken; None for staying where it is.
-        certain: the action is known to have been carried out (`taken`), so none went astray.
-        told: the agent is told that it was moved.
-        went: log-likelihood of what was measured or said of the move: of having taken each way, and last of none; the
-            largest is 0. None where nothing was.
-        fails: the move failed at least so probably, if its way was open, as the body has it.
-        others: log-likelihood of what further sensors read, neither labels nor ways, at the place of a number; at a
-            place never seen for None.
-    """
-
-    sights: tuple[Reading, ...]
-    ways: tuple[float | None, ...]
-    action: int | None = None
-    certain: bool = False
-    told: bool = False
+    sights: tuple[Reading, ...]  # a reading of each sensor
+    ways: tuple[float | None, ...]  # P(open) of each way as it was read, or None where it was not looked at
+    action: int | None = None  # the way that was to be taken; None for staying where it is
+    certain: bool = False  # the action is known to have been carried out (`taken`), so none went astray
+    told: bool = False  # the agent is told that it was moved
+    # log-likelihood of what further sensors read, neither labels nor ways, at the place of a number; at a place
+    # never seen for None
     others: Callable[[int | None], float] | None = None
+    # log-likelihood of what was measured or said of the move: of having taken each way, and last of none; the
+    # largest is 0. None where nothing was
     went: tuple[float, ...] | None = None
-    fails: float = 0.0
+    fails: float = 0.0  # the move failed at least so probably, if its way was open, as the body has it
 
     def of_taking(self, way: int) -> float:
         """Log-likelihood of what was measured or said of the move, if this way was taken; `NOWHERE` for none."""

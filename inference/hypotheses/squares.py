@@ -4,8 +4,6 @@ How often they do is a rate that is learned (`SQUARE`): in a grid of rooms they 
 that turns the agent hardly ever. Three known sides of a square then say where its fourth side leads.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import Protocol
 
@@ -13,11 +11,8 @@ from .layered import Layered
 from .records import NOWHERE, Place
 from .scheme import WayScheme
 
-DEEP = 3
-"""Sides that are themselves only known from squares, one by another, at most."""
-
-CORNERS = 4.0
-"""Corners from which one square is met where it is known which action undoes which."""
+DEEP = 3  # sides that are themselves only known from squares, one by another, at most
+CORNERS = 4.0  # corners from which one square is met where it is known which action undoes which
 
 
 class Map(Protocol):
@@ -27,8 +22,7 @@ class Map(Protocol):
     places: Layered[int, Place]
 
 
-To = Callable[[int, int], int]
-"""Where a way of a place is known to lead, or `NOWHERE`."""
+To = Callable[[int, int], int]  # Where a way of a place is known to lead, or `NOWHERE`
 
 
 def across(h: Map, place: Place, way: int, deep: int = DEEP) -> int:

@@ -52,6 +52,8 @@ class Parts:
     numbers: tuple[int, int, bool, int]
     """Time, place in `doubts`, whether all is clear, steps without doubt."""
     awake: tuple[int, ...]
+    total: float
+    """log P(all steps so far)."""
 
 
 def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
@@ -83,6 +85,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
                 "periods": [[frame, [list(row) for row in rows]] for frame, rows in h.periods.items()],
                 "undo": len(h.undo),
                 "clan": h.clan,
+                "slips": [[*key, count] for key, count in h.slips.items()],
             }
             for h in hypotheses
         ],
@@ -95,6 +98,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         "rates": ROWS,
         "share": len(Share()),
         "awake": list(parts.awake),
+        "total": parts.total,
         "way": len(Way()),
     }
     arrays = out.rows()
@@ -203,7 +207,7 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
     evidence, labels = float(header["evidence"]), tuple(int(n) for n in header["labels"])
     parts = Parts(
         hypotheses[:alive], history, tried, tuple(past), Change(kind, tuple(places)), doubts, labels, evidence,
-        (int(time), int(doubted), bool(clear), int(quiet)), awake,
+        (int(time), int(doubted), bool(clear), int(quiet)), awake, float(header.get("total", 0.0)),
     )  # fmt: skip
     _check_parts(scheme, parts)
     return parts
@@ -213,7 +217,7 @@ def _check_parts(scheme: WayScheme, parts: Parts) -> None:
     """Refuse parts that contradict each other."""
     time, doubted, _, _ = parts.numbers
     alive = bool(parts.hypotheses)
-    if abs(sum(exp(h.weight) for h in parts.hypotheses) - alive) > 1e-6 or not isfinite(parts.evidence):
+    if abs(sum(exp(h.weight) for h in parts.hypotheses) - alive) > 1e-6 or not isfinite(parts.evidence + parts.total):
         raise ValueError("its weights do not add up to one")
     if len(parts.labels) != scheme.sensors * alive or not 0 <= doubted <= len(parts.doubts):
         raise ValueError("its numbers contradict each other")
@@ -272,6 +276,7 @@ def _read_hypothesis(
         one, other = source.numbers(2)
         yes, no = source.reals(2)
         h.undo[one, other] = (yes, no)
+    h.slips = {(int(given), int(taken)): float(count) for given, taken, count in entry.get("slips", ())}
     return h
 
 
@@ -301,7 +306,7 @@ def _check(h: Hypothesis) -> None:
     yes, no = h.counts.yes, h.counts.no
     if not (0.0 <= yes[BLAMED] <= 1.0 and yes[STAYED] > -TRACE and (yes[STAYED] < TRACE or no[STAYED] > 0.0)):
         raise ValueError("its moves failed less often than never")
-    if not all(count >= 0.0 for both in (*h.looks, *h.undo.values()) for count in both):
+    if not all(count >= 0.0 for both in (*h.looks, *h.undo.values(), h.slips.values()) for count in both):
         raise ValueError("it was read as open or blocked less than never")
     if h.crowd is not None:
         known = all(h.places.get(number) is not None for number in h.crowd)

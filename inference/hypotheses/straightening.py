@@ -1,7 +1,5 @@
 """Links that never were: a way that was walked once led elsewhere than was thought, and the agent was moved besides."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import log
 
@@ -11,8 +9,7 @@ from .hypothesis import Hypothesis
 from .rates import MOVED, UNDONE
 from .weighing import rate_gain
 
-Counts = Mapping[int, tuple[float, float]]
-"""Of each rate, how much oftener it was found true, and false."""
+Counts = Mapping[int, tuple[float, float]]  # Of each rate, how much oftener it was found true, and false
 
 
 def straightened(h: Hypothesis, number: int, *, floor: float) -> Hypothesis | None:

@@ -1,7 +1,5 @@
 """Numbers one after another: how records of unlike lengths are written into two arrays, and read again."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 

@@ -28,6 +28,7 @@ from .replaying import History, doubted, without
 from .scheme import Sensed, WayScheme
 from .storing import Arrays, Parts, restored, stored
 from .straightening import straightened
+from .surveying import surveyed
 
 QUIET = 4
 """Steps without doubt after which what is improbable is let go."""
@@ -43,6 +44,9 @@ IN_VAIN = -1e6
 
 DECIDED = 256
 """Steps after which what was open is decided, or hypotheses would differ in more and more that nothing ever tells."""
+
+SURVEYS = (32, 64, 128, 256, 480)
+"""Steps at which the whole walk is surveyed, where something is in doubt then; later ones would not know all of it."""
 
 MANY = 4096
 """Foldings that are remembered."""
@@ -78,6 +82,7 @@ class Tracker:
         self._overwritten: list[tuple[Attempt, Tried | None]] = []
         self._clear, self._quiet = True, 0
         self._past: tuple[Past, ...] = ()
+        self._total = 0.0  # log P(all steps so far)
 
     @property
     def best(self) -> Hypothesis:
@@ -139,7 +144,7 @@ class Tracker:
         """What `rollback` needs to undo the next step; it costs as much as there are hypotheses."""
         self._overwritten = []  # what the step before has overwritten is not to be put back
         kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
-        kept += self._clear, self._quiet, self._past, self.awake
+        kept += self._clear, self._quiet, self._past, self.awake, self._total
         return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
 
     def rollback(self, checkpoint: Checkpoint) -> None:
@@ -155,7 +160,7 @@ class Tracker:
             )
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
         self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
-        self._clear, self._quiet, self._past, self.awake = rest
+        self._clear, self._quiet, self._past, self.awake, self._total = rest
         for key, before in reversed(self._overwritten if tried is self._tried else ()):
             if before is None:
                 tried.pop(key, None)
@@ -171,7 +176,7 @@ class Tracker:
         numbers = self.time, self._doubted, self._clear, self._quiet
         parts = Parts(
             self.hypotheses, self.history, self._tried, self._past, self.change, self._doubts, self.labels,
-            self.evidence, numbers, self.awake,
+            self.evidence, numbers, self.awake, self._total,
         )  # fmt: skip
         return stored(self.scheme, parts)
 
@@ -189,7 +194,7 @@ class Tracker:
         tracker.evidence, tracker.change, tracker._tried = parts.evidence, parts.change, parts.tried
         tracker._past, tracker._doubts = parts.past, parts.doubts
         tracker.time, tracker._doubted, tracker._clear, tracker._quiet = parts.numbers
-        tracker.awake = parts.awake
+        tracker.awake, tracker._total = parts.awake, parts.total
         for h in tracker.hypotheses:
             h.awake, h.chances = tracker.awake, Chances(h.counts, tracker.labels, size=h.size)
         return tracker
@@ -200,7 +205,7 @@ class Tracker:
         first = Hypothesis(self.scheme)
         first.awake = self.awake
         first.chances = Chances(first.counts, self.labels)
-        self.evidence = log_predictive(first, sensed, None, None, NOWHERE)
+        self.evidence = self._total = log_predictive(first, sensed, None, None, NOWHERE)
         self.change = Change("revised")
         begin(first, sensed, self.time)
         return first
@@ -219,7 +224,8 @@ class Tracker:
             likeliest = max(happened, key=lambda branch: branch.weight)
             happened = [branch for branch in happened if not apart(branch, likeliest)]
         children = [self._extended(branch, sensed) for branch in happened]
-        proposed = [*self._folded(children, drop), *self._without(max(children, key=lambda h: h.weight), drop)]
+        best = max(children, key=lambda h: h.weight)
+        proposed = [*self._folded(children, drop), *self._without(best, drop), *self._surveyed(best, sensed, drop)]
         found = merged(children, proposed)
         found = self._decided([h for h in found if h.weight > found[0].weight - drop])
         found = self._doubted_or_clear(found, previous, sensed, drop)
@@ -253,6 +259,7 @@ class Tracker:
             found = merged(found, [*again, *folds])
             self._clear, self._quiet = False, 0
         found, norm = normalised(found, drop=wide, most=self.options.most)
+        self._total += norm
         self._past = (*self._past, step._replace(norm=norm))[-BACK:]
         if not self._clear:
             self._quiet = 0 if self._open_question(found) else self._quiet + 1
@@ -327,6 +334,17 @@ class Tracker:
                 yield other
             else:
                 self._in_vain(key, h, IN_VAIN)
+
+    def _surveyed(self, best: Hypothesis, sensed: Sensed, drop: float) -> Iterator[Hypothesis]:
+        """Now and then, while something is in doubt, the map in which each label is one place."""
+        if self.time not in SURVEYS or self._clear or self.history.start or self.history.end > self.time + 1:
+            return
+        if self.scheme.displacements is None or sensed.others is not None or not self.scheme.sensors:
+            return
+        found = surveyed(best, self.history, floor=self._total + best.weight - drop)
+        if found is not None:
+            found.weight -= self._total
+            yield found
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
         """The foldings that are probable enough."""

@@ -1,7 +1,5 @@
 """The factors of the generative model (eq. 1), one class a file."""
 
-from __future__ import annotations
-
 from .base import Context, ModelFactor, Successors, Support, Table, parts_of
 from .bearings import Bearings
 from .contexts import Contexts

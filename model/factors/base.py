@@ -6,9 +6,9 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Floats, Ints
 from ..changes import Changes, Store
 from ..dirichlet import SparseDirichlet
 from ..errors import CogmapError
@@ -19,32 +19,19 @@ from ..percept import Percept
 from ..rates import Priors, Rates
 from ..visits import Visits
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """What the factors of one model share.
+    """What the factors of one model share."""
 
-    Attributes:
-        motions: the actions.
-        priors: concentrations before evidence.
-        rates: counts that a piece of evidence adds.
-        changes: the log that every factor writes to.
-        growth: what was added to the model.
-        visits: which places were entered.
-        slip: probability of a slip for poses that are given none.
-        information: what n more observations of a row of counts would teach, looked up where it was met before.
-    """
-
-    motions: Motions
-    priors: Priors
-    rates: Rates
-    changes: Changes
-    growth: list[GrowthEvent]
-    visits: Visits
-    slip: float
+    motions: Motions  # the actions
+    priors: Priors  # concentrations before evidence
+    rates: Rates  # counts that a piece of evidence adds
+    changes: Changes  # the log that every factor writes to
+    growth: list[GrowthEvent]  # what was added to the model
+    visits: Visits  # which places were entered
+    slip: float  # probability of a slip for poses that are given none
+    # what n more observations of a row of counts would teach, looked up where it was met before
     information: KnownInformation = field(default_factory=KnownInformation, compare=False)
 
     def grown(self, event: GrowthEvent) -> None:
@@ -55,17 +42,11 @@ class Context:
 
 @dataclass(frozen=True, slots=True)
 class Successors:
-    """Where an action may have led from each of `n` places, `[n, slots]`.
+    """Where an action may have led from each of `n` places, `[n, slots]`."""
 
-    Attributes:
-        places: s'; negative where a slot is unused, or leads out of the map.
-        probability: B_s[a](s', s).
-        coupling: what the factors of this step are multiplied by besides, given what is sensed now.
-    """
-
-    places: Ints
-    probability: Floats
-    coupling: Floats
+    places: Ints  # s'; negative where a slot is unused, or leads out of the map
+    probability: Floats  # B_s[a](s', s)
+    coupling: Floats  # what the factors of this step are multiplied by besides, given what is sensed now
 
     def of(self, rows: Ints) -> Successors:
         """Those of some of the places."""
@@ -74,29 +55,17 @@ class Successors:
 
 @dataclass(frozen=True, slots=True)
 class Support:
-    """What the factors of one time step are tabulated over: the places and positions that hold mass.
+    """What the factors of one time step are tabulated over: the places and positions that hold mass."""
 
-    Attributes:
-        step: the time step t.
-        percept: what it brought.
-        places: `[n]` domain of s_t.
-        positions: `[m]` domain of p_t.
-        before: the domains of s_t-1 `[n']` and p_t-1 `[m']`; None where the window begins.
-        likelihoods: by name of the sensor, `[n]` P(reading | s_t), of all together up to one factor.
-        arrival: `[n]` P(s_t | moved_t); None in a model without displacement.
-        examined: whether the filter looked at displacement at all.
-        ahead: where the action may have led from each of the places before, as the filter had it.
-    """
-
-    step: int
-    percept: Percept
-    places: Ints
-    positions: Ints
-    before: tuple[Ints, Ints] | None
-    likelihoods: Mapping[str, Floats]
-    arrival: Floats | None
-    examined: bool
-    ahead: Successors | None
+    step: int  # the time step t
+    percept: Percept  # what it brought
+    places: Ints  # `[n]` domain of s_t
+    positions: Ints  # `[m]` domain of p_t
+    before: tuple[Ints, Ints] | None  # the domains of s_t-1 `[n']` and p_t-1 `[m']`; None where the window begins
+    likelihoods: Mapping[str, Floats]  # by name of the sensor, `[n]` P(reading | s_t), of all together up to one factor
+    arrival: Floats | None  # `[n]` P(s_t | moved_t); None in a model without displacement
+    examined: bool  # whether the filter looked at displacement at all
+    ahead: Successors | None  # where the action may have led from each of the places before, as the filter had it
 
     def scope(self, name: str) -> tuple[str, ...]:
         """`name` at t and at t-1, and whether the agent was moved in between where the model has that."""
@@ -106,25 +75,16 @@ class Support:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A factor of one time step, for the graph of the window.
+    """A factor of one time step, for the graph of the window."""
 
-    Attributes:
-        name: its symbol.
-        scope: names of its variables, one an axis.
-        values: the factor itself, or what works it out when it is asked for; must not read what may change.
-        kind: `sight`, `walls`, `transition`, …, as in `Factor`.
-        equation: what it says.
-        observed: label of the first variable of its scope, if that is observed.
-        domain: values of the first variable of its scope, if that is a latent of its own.
-    """
-
-    name: str
-    scope: tuple[str, ...]
+    name: str  # its symbol
+    scope: tuple[str, ...]  # names of its variables, one an axis
+    # the factor itself, or what works it out when it is asked for; must not read what may change
     values: Floats | Callable[[], Floats]
-    kind: str
-    equation: str
-    observed: tuple[Hashable, ...] = ()
-    domain: tuple[Hashable, ...] = ()
+    kind: str  # `sight`, `walls`, `transition`, …, as in `Factor`
+    equation: str  # what it says
+    observed: tuple[Hashable, ...] = ()  # label of the first variable of its scope, if that is observed
+    domain: tuple[Hashable, ...] = ()  # values of the first variable of its scope, if that is a latent of its own
 
     @property
     def array(self) -> Floats:
@@ -146,22 +106,14 @@ class ModelFactor:
     _context: Context | None = None
 
     def attach(self, context: Context) -> None:
-        """Make it part of a model.
-
-        Raises:
-            CogmapError: it is part of one already.
-        """
+        """Make it part of a model. Raises CogmapError: it is part of one already."""
         if self._context is not None:
             raise CogmapError(f"{self.name}: this {type(self).__name__} belongs to another agent; make one for each")
         self._context = context
 
     @property
     def context(self) -> Context:
-        """What it shares with the other factors of its model.
-
-        Raises:
-            CogmapError: it belongs to no model yet.
-        """
+        """What it shares with the other factors of its model. Raises CogmapError: it belongs to no model yet."""
         if self._context is None:
             raise CogmapError(f"{self.name}: it belongs to no model yet; give it to an Agent or a CognitiveMap")
         return self._context

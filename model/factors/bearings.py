@@ -1,20 +1,18 @@
 """Which way the ways of a place lead: what a place is known by that looks like many others."""
 
-from __future__ import annotations
-
+import sys
 from collections.abc import Hashable, Sequence
-from math import isfinite
 from typing import Any, cast
 
 import numpy as np
 
 from ..errors import CogmapError
+from ..rates import is_number
 from .base import Context, Floats, Ints
 from .sight import Sight
 from .transition import Transition
 
-NONE = -1
-"""Stands for an action that has no way here."""
+NONE = -1  # stands for an action that has no way here
 
 
 class Bearings(Sight):
@@ -27,7 +25,6 @@ class Bearings(Sight):
         super().__init__(name, prior=prior)
 
     def join(self, context: Context, transitions: Transition) -> None:
-        """Make it part of a model."""
         super().join(context, transitions)
         self._actions = len(context.motions)
 
@@ -40,7 +37,6 @@ class Bearings(Sight):
         return told
 
     def log_predictive(self, reading: Any) -> float:
-        """The same of a place that was never imagined."""
         return float(np.log(self._of_new(reading))) if isinstance(reading, int) else super().log_predictive(reading)
 
     def _of_new(self, reading: int) -> float:
@@ -50,11 +46,7 @@ class Bearings(Sight):
         return again / max(kinds, 1) if len(shown) else 1.0 - again
 
     def check(self, value: Any) -> Hashable:
-        """The bearings as a tuple, -1 for none.
-
-        Raises:
-            CogmapError: not degrees, or None, for each action.
-        """
+        """The bearings as a tuple, -1 for none. Raises CogmapError: not degrees, or None, for each action."""
         listed = isinstance(value, Sequence | np.ndarray) and not isinstance(value, str | bytes)
         given = list(cast(Sequence[Any], value)) if listed else []
         if len(given) != self._actions or not all(map(_is_bearing, given)):
@@ -66,8 +58,7 @@ class Bearings(Sight):
 
 
 def _is_bearing(value: Any) -> bool:
-    number = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    return value is None or (number and isfinite(value))
+    return value is None or is_number(value, -sys.float_info.max, sys.float_info.max)
 
 
 def _degrees(value: float) -> int | float:

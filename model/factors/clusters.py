@@ -1,7 +1,5 @@
 """Mathematics of clusters of vectors."""
 
-from __future__ import annotations
-
 from math import lgamma, log, pi
 
 import numpy as np

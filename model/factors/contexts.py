@@ -1,7 +1,5 @@
 """P(k | s): a context of the world that is not seen, on which sights and ways may depend."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from typing import Any, cast
 
@@ -14,11 +12,8 @@ from ..rates import is_number
 from .base import Context, Floats, Ints, Support, Table
 from .sensor import Sensor
 
-FLOOR = 1e-12
-"""Likelihood of the contexts that a label leaves out: what is small may yet win."""
-
-Shares = tuple[float, ...]
-"""Likelihood of each context, the largest 1."""
+FLOOR = 1e-12  # likelihood of the contexts that a label leaves out: what is small may yet win
+Shares = tuple[float, ...]  # likelihood of each context, the largest 1
 
 
 class Contexts(Sensor):
@@ -51,34 +46,25 @@ class Contexts(Sensor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Name and contexts."""
         return {"values": list(self.values), "name": self.name}
 
     def attach(self, context: Context) -> None:
-        """Make it part of a model."""
         super().attach(context)
         self._of = Column(f"{self.name}.of", np.int64, fill=-1, changes=context.changes)
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """Of which context each place is."""
         return (self._of,)
 
     def grow(self, places: int) -> None:
-        """Of new places nobody knows."""
         self._of.resize(places)
 
     def know(self, place: int, value: Any) -> None:
-        """The place is of this context."""
         if value is not None:
             self._of.set(place, self._number(value))
 
     def check(self, value: Any) -> Shares:
-        """A context, or likelihoods of contexts.
-
-        Raises:
-            CogmapError: it is neither.
-        """
+        """A context, or likelihoods of contexts. Raises CogmapError: it is neither."""
         if not isinstance(value, Mapping):
             number = self._number(value)
             return tuple(float(at == number) for at in range(len(self.values)))
@@ -106,7 +92,6 @@ class Contexts(Sensor):
         return np.log(np.append(told, told.mean()))[self._of.values[places]]
 
     def log_predictive(self, reading: Shares) -> float:
-        """Log of the mean."""
         return float(np.log(np.maximum(reading, FLOOR).mean()))
 
     def learn(self, place: int, reading: Shares, weight: float) -> None:

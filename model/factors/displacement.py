@@ -1,7 +1,5 @@
 """P(moved_t): the agent was put into some visited place without being told."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np
@@ -30,7 +28,6 @@ class Displacement(ModelFactor):
 
     @property
     def options(self) -> dict[str, float]:
-        """P(moved_t)."""
         return {"probability": self.probability}
 
     def prior(self, percept: Percept) -> float:

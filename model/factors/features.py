@@ -1,7 +1,5 @@
 """P(x | s) of a vector of features: which prototype a place looks like, known again by a likelihood."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -54,7 +52,6 @@ class Features(Sight):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Name, size, noise and prior."""
         return {"name": self.name, "size": self.size, "noise": self.noise, "prior": self._prior}
 
     @property
@@ -68,21 +65,15 @@ class Features(Sight):
         return self.memory.spread
 
     def join(self, context: Context, transitions: Transition) -> None:
-        """Make it part of a model."""
         super().join(context, transitions)
         self.memory = Prototypes(f"{self.name}.prototypes", size=self.size, noise=self.noise)
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """The counts, and the prototypes."""
         return (*super().stores, self.memory)
 
     def check(self, value: Any) -> Floats:
-        """The vector, as numbers.
-
-        Raises:
-            CogmapError: it is no vector of `size` finite numbers.
-        """
+        """The vector, as numbers. Raises CogmapError: it is no vector of `size` finite numbers."""
         if isinstance(value, np.ma.MaskedArray) and np.ma.getmaskarray(value).any():  # pyright: ignore[reportUnknownArgumentType, reportUnknownMemberType]
             raise CogmapError(f"observation: {self.name} is masked; give UNSEEN where nothing was seen")
         try:
@@ -122,11 +113,7 @@ class Features(Sight):
         return {number: float(told[number]) for number in self.memory.numbers}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, Any], places: int) -> None:
-        """Take over labels, counts and prototypes.
-
-        Raises:
-            CogmapError: not one label a prototype.
-        """
+        """Take over labels, counts and prototypes. Raises CogmapError: not one label a prototype."""
         super().restore(state, arrays, places)
         self.memory.restore({part: arrays[f"{self.memory.name}.{part}"] for part in self.memory.state()})
         if self.memory.count != len(self.labels):

@@ -1,7 +1,5 @@
 """Prototypes of vectors: a mixture of Gaussians of one learned spread that grows as a Chinese restaurant process."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from math import inf, log, sqrt
 from typing import Any
@@ -22,17 +20,13 @@ POSSIBLE = 0.02
 To unite two that are one is safer than to part them. Where much is known it is a half.
 """
 
-SURE = log(100.0)
-"""Log odds from which on two prototypes are one."""
-
-WORTH = 4.0
-"""Numbers that the first guess of the spread counts as."""
+SURE = log(100.0)  # log odds from which on two prototypes are one
+WORTH = 4.0  # numbers that the first guess of the spread counts as
 
 RECENT, LEAST = 64, 4
 """The last vectors that are kept, and how many of a prototype are needed to part it."""
 
-GUESSED = 6.0
-"""Numbers that the first guess of how prototypes differ counts as."""
+GUESSED = 6.0  # numbers that the first guess of how prototypes differ counts as
 
 
 class Prototypes:
@@ -245,11 +239,7 @@ class Prototypes:
         return {name: part.copy() for name, part in parts.items()}
 
     def restore(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take over what `state` gave.
-
-        Raises:
-            CogmapError: it is of vectors of another size, or no such numbers.
-        """
+        """Take over what `state` gave. Raises CogmapError: it is of vectors of another size, or no such numbers."""
         first, stray, counts, sums, recent, shown = (state[part] for part in self.state())
         fits = first.shape == stray.shape == (2,) and counts.ndim == shown.ndim == 1
         fits = fits and sums.shape == (len(counts), self._size) and recent.shape == (len(shown), self._size)

@@ -1,7 +1,5 @@
 """Readings of sensors, checked and brought into one form: labels, likelihoods of labels, ways."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from math import isfinite
@@ -15,8 +13,7 @@ from ..labels import plain
 from ..motions import Motions
 from ..unseen import UNSEEN
 
-WayReading = bool | float | None
-"""Whether a way is open: true, false, P(open), or None where it was not looked at."""
+WayReading = bool | float | None  # whether a way is open: true, false, P(open), or None where it was not looked at
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,11 +53,7 @@ def checked_label(value: Any, sensor: str, declared: Domain) -> Hashable:
 
 
 def declared(labels: Any, sensor: str) -> tuple[Hashable, ...]:
-    """The labels that a sensor is declared with.
-
-    Raises:
-        CogmapError: they are no list of labels.
-    """
+    """The labels that a sensor is declared with. Raises CogmapError: they are no list of labels."""
     if labels is None:
         return ()
     if isinstance(labels, str | bytes) or not isinstance(labels, Iterable):

@@ -1,7 +1,5 @@
 """What every sensor offers: its part P(reading | s) of the likelihood."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable
 from typing import Any
 
@@ -47,7 +45,6 @@ class Sensor(ModelFactor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Its name."""
         return {"name": self.name}
 
     def join(self, context: Context, transitions: Transition) -> None:
@@ -98,7 +95,6 @@ class Sensor(ModelFactor):
         return None
 
     def tables(self, support: Support) -> Iterable[Table]:
-        """Its likelihood of what was sensed."""
         if self.name in support.likelihoods:
             reading = support.percept.readings[self.name]
             o, s = f"{self.variable}{support.step}", f"s{support.step}"

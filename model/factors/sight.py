@@ -1,7 +1,5 @@
 """P(o | s): which label a place shows, as Dirichlet counts."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 from typing import Any, cast
 
@@ -20,8 +18,7 @@ from .sensor import Sensor
 from .sight_index import SightIndex
 from .transition import Transition
 
-Reading = int | Mapping[int, float]
-"""The number of a label, or likelihoods of labels by number, the largest 1."""
+Reading = int | Mapping[int, float]  # the number of a label, or likelihoods of labels by number, the largest 1
 
 
 class Sight(Sensor):
@@ -55,11 +52,9 @@ class Sight(Sensor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Name and prior."""
         return {"name": self.name, "prior": self._prior}
 
     def join(self, context: Context, transitions: Transition) -> None:
-        """Make it part of a model."""
         super().join(context, transitions)
         self.labels = Domain("sights" if self.name == "sight" else self.name, self._declared)
         background = context.priors.sight if self._prior is None else self._prior
@@ -71,32 +66,23 @@ class Sight(Sensor):
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """The counts."""
         return (self.table,)
 
     def grow(self, places: int) -> None:
-        """Any label is as likely as any other in a new place."""
         self.table.resize(places)
 
     def savepoint(self) -> int:
-        """How many labels there are."""
         return len(self.labels)
 
     def go_back(self, point: int) -> None:
-        """Have the first so many labels only; which places show them is looked up anew."""
         self.labels.cut(point)
         self._index = SightIndex(self.table, self.context.changes, self.context.visits)
 
     def state(self) -> dict[str, Any]:
-        """The labels."""
         return {"labels": [encode(label) for label in self.labels]}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
-        """Take over labels and counts.
-
-        Raises:
-            CogmapError: two labels are the same.
-        """
+        """Take over labels and counts. Raises CogmapError: two labels are the same."""
         self.labels.extend(decode(label) for label in state["labels"])
         if len(self.labels) < len(state["labels"]):
             raise CogmapError(f"map: two labels of {self.name} are the same; save it again")
@@ -133,7 +119,6 @@ class Sight(Sensor):
         return self.labels[reading]
 
     def log_likelihood(self, places: Ints, reading: Reading) -> Floats:
-        """`[n]` log P(o | s)."""
         return np.log(self.likelihood(places, reading))
 
     def likelihood(self, places: Ints, reading: Reading) -> Floats:

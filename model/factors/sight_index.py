@@ -1,19 +1,14 @@
 """Visited places by the sights that they have counts for, so that a sight can be looked up in a large map."""
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Ints
 from ..changes import Change, Changes
 from ..column import Column
 from ..dirichlet import EMPTY, SparseDirichlet
 from ..visits import Visits
 
-Ints = NDArray[np.int64]
-
-SETTLED = 0.5
-"""Counts in all, from which on a place without any for a sight makes that sight improbable."""
+SETTLED = 0.5  # counts in all, from which on a place without any for a sight makes that sight improbable
 
 
 class SightIndex:

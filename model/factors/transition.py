@@ -1,8 +1,6 @@
 """P(s' | s, a): where the ways of a place lead, as Dirichlet counts B_s."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import Any
 
@@ -19,11 +17,14 @@ from .base import Context, Floats, Ints, ModelFactor, Successors, Support, Table
 ELSEWHERE = -1
 """Successor that is no place of the map yet."""
 
-UNSURE = 0.1
-"""P(open) and P(blocked) from which on it is open whether a way is open."""
+UNSURE = 0.1  # P(open) and P(blocked) from which on it is open whether a way is open
 
 UNKNOWN, OPEN, BLOCKED = 0, 1, 2
 """What was last sensed of a door."""
+
+
+def _as_given(action: int) -> None:
+    """Actions are carried out as they are given."""
 
 
 class Transition(ModelFactor):
@@ -33,12 +34,14 @@ class Transition(ModelFactor):
         table: B_s.
         sensed: `[S, K]` what was last sensed of each door.
         walked: `[S, K]` whether each way was ever walked.
+        carried_out: `[K]` P(action carried out | an action given), as whoever learns it has it; None where actions
+            hardly ever go astray, as long as nobody says otherwise.
     """
 
     name = "transition"
+    carried_out: Callable[[int], Floats | None] = staticmethod(_as_given)
 
     def attach(self, context: Context) -> None:
-        """Make it part of a model."""
         super().attach(context)
         size, log = len(context.motions), context.changes
         self.motions, self.rates = context.motions, context.rates
@@ -48,7 +51,6 @@ class Transition(ModelFactor):
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """B_s, and what is noted of the doors."""
         return self.table, self.sensed, self.walked
 
     def grow(self, places: int) -> None:
@@ -74,11 +76,7 @@ class Transition(ModelFactor):
             self.walked.set((place, action), False)
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
-        """Take over the arrays.
-
-        Raises:
-            CogmapError: an action leads nowhere, not even back.
-        """
+        """Take over the arrays. Raises CogmapError: an action leads nowhere, not even back."""
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=places, least=ELSEWHERE)
         keys, alpha, _ = self.table.concentration(np.arange(places * len(self.motions)))

@@ -1,7 +1,5 @@
 """P(c | s): which ways are sensed open; learned as transitions are."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 from math import log
 from typing import Any
@@ -14,8 +12,7 @@ from .readings import WayReading, checked_ways
 from .sensor import Sensor
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 
-Looks = Sequence[WayReading]
-"""A reading an action."""
+Looks = Sequence[WayReading]  # A reading an action
 
 
 class Ways(Sensor):
@@ -40,7 +37,6 @@ class Ways(Sensor):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Whether the rates of ways are learned."""
         return {"learned": True} if self._learned else {}
 
     def join(self, context: Context, transitions: Transition) -> None:
@@ -54,11 +50,9 @@ class Ways(Sensor):
         return UNSEEN if ways is None else ways
 
     def log_likelihood(self, places: Ints, reading: Looks) -> Floats:
-        """`[n]` log P(doors as sensed | s)."""
         return np.log(self._each(places, reading)).sum(axis=1)
 
     def likelihood(self, places: Ints, reading: Looks) -> Floats:
-        """`[n]` P(doors as sensed | s)."""
         return np.multiply.reduce(self._each(places, reading), axis=1)
 
     def _each(self, places: Ints, reading: Looks) -> Floats:

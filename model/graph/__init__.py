@@ -1,7 +1,5 @@
 """The language: discrete factor graphs declared, shown, written and read."""
 
-from __future__ import annotations
-
 from .conditional import ConditionalTable, LearnableTable
 from .export import equation, quoted
 from .factor_graph import FactorGraph

@@ -1,7 +1,5 @@
 """Conditionals whose values are learned: what a table must offer, and a plain Dirichlet table."""
 
-from __future__ import annotations
-
 from typing import Protocol, runtime_checkable
 
 import numpy as np

@@ -1,45 +1,35 @@
 """Factors: non-negative functions of named discrete variables, dense or sparse."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Floats, Ints
 from ..errors import CogmapError
 from .variables import Variable
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
+FloatArray, IntArray = Floats, Ints
 
-LARGEST_DENSE = 2**28
-"""Entries of a sparse table that is still written out."""
-MOST_AXES = 32
-"""Axes of an array that numpy still broadcasts, of the 64 that it has."""
-NORMALISED = 1e-12
-"""How far the sums of a conditional may be from 1."""
+LARGEST_DENSE = 2**28  # entries of a sparse table that is still written out
+MOST_AXES = 32  # axes of an array that numpy still broadcasts, of the 64 that it has
+NORMALISED = 1e-12  # how far the sums of a conditional may be from 1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SparseValues:
     """Values listed one by one; every entry not listed is 0.
 
-    Attributes:
-        shape: one length an axis, `n` axes.
-        indices: `[k, n]` integers, one row an entry, no row twice.
-        values: `[k]` non-negative values.
-
     Raises:
         CogmapError: shapes do not fit, an index is out of range or listed twice.
     """
 
-    shape: tuple[int, ...]
-    indices: IntArray
-    values: FloatArray
+    shape: tuple[int, ...]  # one length an axis, `n` axes
+    indices: IntArray  # `[k, n]` integers, one row an entry, no row twice
+    values: FloatArray  # `[k]` non-negative values
 
     def __post_init__(self) -> None:
         shape = tuple(int(length) for length in self.shape)
@@ -88,26 +78,19 @@ class SparseValues:
 class Factor:
     """A non-negative function of the variables in its scope.
 
-    Attributes:
-        name: the symbol, such as `"A_o"`; name and scope together are unique within a graph.
-        scope: the variables, one an axis of `values`; the output of a conditional first
-            (`A[outcome, state]`, `B[next, previous]`).
-        values: the function itself, finite and non-negative, dense or sparse.
-        kind: what the factor stands for, such as `"prior"`, `"transition"` or `"sight"`.
-        equation: the equation it implements, for people.
-        table: the learnable table the values come from, if any.
-
     Raises:
         CogmapError: scope empty or with a variable twice, shape not that of the scope, or values that
             are NaN, infinite or negative.
     """
 
-    name: str
+    name: str  # the symbol, such as `"A_o"`; name and scope together are unique within a graph
+    # the variables, one an axis of `values`; the output of a conditional first (`A[outcome, state]`, `B[next,
+    # previous]`)
     scope: tuple[Variable, ...]
-    values: FloatArray | SparseValues
-    kind: str = "factor"
-    equation: str = ""
-    table: object | None = None
+    values: FloatArray | SparseValues  # the function itself, finite and non-negative, dense or sparse
+    kind: str = "factor"  # what the factor stands for, such as `"prior"`, `"transition"` or `"sight"`
+    equation: str = ""  # the equation it implements, for people
+    table: object | None = None  # the learnable table the values come from, if any
     _known: dict[str, Any] = field(default_factory=dict[str, Any], init=False, repr=False)
 
     def __post_init__(self) -> None:

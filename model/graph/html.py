@@ -1,7 +1,5 @@
 """A factor graph as HTML, for notebooks."""
 
-from __future__ import annotations
-
 from ..labels import shown
 from ..markup import html_table, safe
 from .export import equation

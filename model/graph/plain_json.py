@@ -1,7 +1,5 @@
 """Factor graphs as plain JSON values and back, and when two of them are the same."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeVar, cast
@@ -18,8 +16,7 @@ from .variables import Variable
 
 AnyGraph = TypeVar("AnyGraph", bound=GraphStructure)
 FORMAT = "cogmap factor graph"
-SCHEMA = 1
-"""Version of the layout."""
+SCHEMA = 1  # version of the layout
 
 
 def graph_to_dict(graph: GraphStructure) -> dict[str, Any]:

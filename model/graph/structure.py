@@ -1,7 +1,5 @@
 """What a factor graph consists of: variables, factors over them, evidence; and how each is declared."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace

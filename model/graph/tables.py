@@ -27,26 +27,17 @@ NO_PANDAS = "table: pandas is not installed; run: pip install 'cogmap[tables]'"
 class LabelledTable:
     """Cells with a label a row and a label a column; `str` aligns them, notebooks show HTML.
 
-    Attributes:
-        cells: `[rows, columns]`, an array or one sequence a row.
-        index: label of each row.
-        columns: label of each column; with several `column_names`, a tuple of one label a name.
-        index_name: what the rows are.
-        column_names: what the columns are.
-        title: what the table is.
-        digits: decimals of numbers in text; four significant digits unless given.
-
     Raises:
         CogmapError: the cells do not fit the labels.
     """
 
-    cells: NDArray[np.float64] | Sequence[Sequence[object]]
-    index: tuple[Hashable, ...]
-    columns: tuple[Hashable, ...]
-    index_name: str = ""
-    column_names: tuple[str, ...] = ("",)
-    title: str = ""
-    digits: int | None = None
+    cells: NDArray[np.float64] | Sequence[Sequence[object]]  # `[rows, columns]`, an array or one sequence a row
+    index: tuple[Hashable, ...]  # label of each row
+    columns: tuple[Hashable, ...]  # label of each column; with several `column_names`, a tuple of one label a name
+    index_name: str = ""  # what the rows are
+    column_names: tuple[str, ...] = ("",)  # what the columns are
+    title: str = ""  # what the table is
+    digits: int | None = None  # decimals of numbers in text; four significant digits unless given
 
     def __post_init__(self) -> None:
         if len(self.cells) != len(self.index) or any(len(row) != len(self.columns) for row in self.cells):

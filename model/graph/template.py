@@ -1,7 +1,5 @@
 """Graphs that repeat in time: the variables and factors of one slice, and of the step between two."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast

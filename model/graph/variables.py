@@ -1,7 +1,5 @@
 """Discrete variables with labelled domains."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import cast
@@ -13,20 +11,15 @@ from ..errors import CogmapError
 class Variable:
     """A discrete variable: a name and the labels it may take.
 
-    Attributes:
-        name: unique within a graph; graphs, evidence and posteriors speak of it by this name.
-        domain: the labels, any hashable values, at least one, none twice (`1`, `1.0` and `True` are one label).
-        time: the time step the variable belongs to, if any; inference eliminates along it.
-        observed: an observation: it has one label only, or evidence must be given for it.
-
     Raises:
         CogmapError: the name is empty, or the domain is empty, repeats a label or holds an unhashable one.
     """
 
-    name: str
+    name: str  # unique within a graph; graphs, evidence and posteriors speak of it by this name
+    # the labels, any hashable values, at least one, none twice (`1`, `1.0` and `True` are one label)
     domain: tuple[Hashable, ...]
-    time: int | None = None
-    observed: bool = False
+    time: int | None = None  # the time step the variable belongs to, if any; inference eliminates along it
+    observed: bool = False  # an observation: it has one label only, or evidence must be given for it
     _indices: Mapping[Hashable, int] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:

@@ -12,21 +12,13 @@ from .variables import Variable
 
 @dataclass(frozen=True)
 class Wiring:
-    """The shape of a graph: variables and factors by number, in the order they were declared.
-
-    Attributes:
-        variables: the variables.
-        number: the number of each variable, by name.
-        factors: the factors.
-        scopes: for each factor the numbers of its variables.
-        touching: for each variable the numbers of the factors that touch it.
-    """
+    """The shape of a graph: variables and factors by number, in the order they were declared."""
 
     variables: Sequence[Variable]
-    number: Mapping[str, int]
+    number: Mapping[str, int]  # the number of each variable, by name
     factors: Sequence[Factor]
-    scopes: Sequence[tuple[int, ...]]
-    touching: Sequence[Sequence[int]]
+    scopes: Sequence[tuple[int, ...]]  # for each factor the numbers of its variables
+    touching: Sequence[Sequence[int]]  # for each variable the numbers of the factors that touch it
 
     @classmethod
     def of(cls, variables: Iterable[Variable], factors: Iterable[Factor]) -> Wiring:

@@ -1,7 +1,5 @@
 """The three ways to grow, compared in the paper's figure on internal map layouts."""
 
-from __future__ import annotations
-
 from .base import Growth, Whereabouts, place_beyond
 from .observed import ObservedGrowth
 from .predicted import PredictedGrowth

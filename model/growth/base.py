@@ -1,7 +1,5 @@
 """What a growth rule answers."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,13 +9,9 @@ from ..generative import GenerativeModel
 
 @dataclass(frozen=True, slots=True)
 class Whereabouts:
-    """What is believed of where the agent is.
+    """What is believed of where the agent is."""
 
-    Attributes:
-        places: Q(s_t) of the places that hold mass, the most probable first.
-    """
-
-    places: Mapping[int, float]
+    places: Mapping[int, float]  # Q(s_t) of the places that hold mass, the most probable first
 
     @property
     def place(self) -> int:

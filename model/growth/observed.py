@@ -1,7 +1,5 @@
 """A place exists once it was entered (figure on internal map layouts, b)."""
 
-from __future__ import annotations
-
 from ..generative import GenerativeModel
 from .base import Growth, Whereabouts, place_beyond
 
@@ -12,5 +10,4 @@ class ObservedGrowth(Growth):
     name = "observed"
 
     def enter(self, map_: GenerativeModel, belief: Whereabouts, action: int, *, step: int) -> list[int]:
-        """The place behind the door that was taken."""
         return place_beyond(map_, belief.place, action, step=step)

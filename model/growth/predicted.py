@@ -1,7 +1,5 @@
 """A place exists once a door to it was seen (figure on internal map layouts, c): the paper's proposal."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from ..generative import GenerativeModel
@@ -14,7 +12,6 @@ class PredictedGrowth(Growth):
     name = "predicted"
 
     def look(self, map_: GenerativeModel, belief: Whereabouts, open_: Sequence[bool], *, step: int) -> list[int]:
-        """The places behind all open doors that the map has no place for."""
         here = belief.place
         return [
             place

@@ -1,17 +1,15 @@
 """The number of places is known beforehand, nothing else (figure on internal map layouts, a)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 
 from ..errors import CogmapError
 from ..generative import GenerativeModel
+from ..rates import is_whole
 from .base import Growth, Whereabouts
 
-MOST = 10_000_000
-"""Places that can be known beforehand."""
+MOST = 10_000_000  # places that can be known beforehand
 
 
 class StaticGrowth(Growth):
@@ -27,8 +25,7 @@ class StaticGrowth(Growth):
     name = "static"
 
     def __init__(self, places: int) -> None:
-        whole = isinstance(places, int) and not isinstance(places, bool)  # pyright: ignore[reportUnnecessaryIsInstance]
-        if not whole or not 1 <= places <= MOST:  # pyright: ignore[reportUnnecessaryIsInstance]
+        if not is_whole(places, 1, MOST):
             raise CogmapError(
                 f"growth: static growth cannot have {places!r} places; give the size of the world, {MOST:,} at most"
             )
@@ -36,15 +33,10 @@ class StaticGrowth(Growth):
 
     @property
     def options(self) -> dict[str, Any]:
-        """How many places."""
         return {"places": self.places}
 
     def begin(self, map_: GenerativeModel, *, step: int) -> list[int]:
-        """All places; the first is where the agent wakes up.
-
-        Raises:
-            CogmapError: places have no positions.
-        """
+        """All places; the first is where the agent wakes up. Raises CogmapError: places have no positions."""
         origin = map_.pose.origin
         if origin is None:
             raise CogmapError("growth: static growth tells places apart by their positions; give the agent a Lattice()")

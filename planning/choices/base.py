@@ -1,18 +1,13 @@
 """What a way to choose is, and what they share."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...model import Floats, Ints
 from ..local import LocalModel
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 TIE = 1e-3
 """Nats; policies closer than this are equally good: at a precision of 16 their odds are 1.016 to 1."""
@@ -20,15 +15,10 @@ TIE = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Why a policy that is no worse than the chosen one was not taken.
+    """Why a policy that is no worse than the chosen one was not taken."""
 
-    Attributes:
-        name: in data.
-        words: for people.
-    """
-
-    name: str
-    words: str
+    name: str  # in data
+    words: str  # for people
 
 
 class Choice(ABC):

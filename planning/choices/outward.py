@@ -1,7 +1,5 @@
 """The least G, and while exploring outward first."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -19,16 +17,13 @@ class Outward(Choice):
     While it only explores it takes, of the policies within `slack` of the least G, those whose first place never
     entered lies furthest out, and the best of them: exploring leaves fewer pockets behind.
 
-    Attributes:
-        slack: nats that an agent which only explores gives up, at most, to go further out first.
-
     Raises:
         CogmapError: `slack` is negative, or not finite.
     """
 
     name: ClassVar[str] = "outward"
     how: ClassVar[str] = "the least G, or nearly so and furthest out"
-    slack: float = 0.25
+    slack: float = 0.25  # nats that an agent which only explores gives up, at most, to go further out first
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.slack < np.inf:

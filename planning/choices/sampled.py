@@ -1,7 +1,5 @@
 """A draw from P(policy)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """What plans read of each place of a map, kept from step to step until the map has changed there."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import Any
@@ -16,8 +14,7 @@ from .transitions import Floats, Ints, Transitions, likeliest
 from .view import MapView
 from .where import Where
 
-CUTS = 64
-"""Cuts of the map that are kept, at most."""
+CUTS = 64  # cuts of the map that are kept, at most
 
 Key = tuple[bytes, bytes, tuple[bool, ...], tuple[bool, ...]]
 """Of a cut: the places that the agent may be in, those that are in it, what is sensed of the ways, and of which not."""
@@ -25,63 +22,37 @@ Key = tuple[bytes, bytes, tuple[bool, ...], tuple[bool, ...]]
 
 @dataclass(frozen=True, slots=True)
 class WayRows:
-    """What plans read of the ways of `n` places.
+    """What plans read of the ways of `n` places."""
 
-    Attributes:
-        successors: `[n, K, slots]` where each action may lead to.
-        probability: `[n, K, slots]` of each, zero where a slot is unused.
-        likely: `[n, K]` where it most probably leads to besides the place itself; see `likeliest`.
-        blocked: `[n, K]` P(staying | s, a).
-        ways: `[n, N + 1]` nats that visits teach of B_s by their ways.
-    """
-
-    successors: Ints
-    probability: Floats
-    likely: Ints
-    blocked: Floats
-    ways: Floats
+    successors: Ints  # `[n, K, slots]` where each action may lead to
+    probability: Floats  # `[n, K, slots]` of each, zero where a slot is unused
+    likely: Ints  # `[n, K]` where it most probably leads to besides the place itself; see `likeliest`
+    blocked: Floats  # `[n, K]` P(staying | s, a)
+    ways: Floats  # `[n, N + 1]` nats that visits teach of B_s by their ways
 
 
 @dataclass(frozen=True, slots=True)
 class SightRows:
-    """What plans read of the sights and positions of `n` places.
+    """What plans read of the sights and positions of `n` places."""
 
-    Attributes:
-        positions: `[n, N + 1]` nats that visits teach of A_p.
-        position: `[n, D]` where each place is; NaN where nobody knows.
-        sights: `[n, N + 1]` nats that visits teach of the sights.
-    """
-
-    positions: Floats
-    position: Floats
-    sights: Floats
+    positions: Floats  # `[n, N + 1]` nats that visits teach of A_p
+    position: Floats  # `[n, D]` where each place is; NaN where nobody knows
+    sights: Floats  # `[n, N + 1]` nats that visits teach of the sights
 
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """What a local model has of ways, local numbers throughout; it stays as it is until the ways of the map change.
+    """What a local model has of ways, local numbers throughout; it stays as it is until the ways of the map change."""
 
-    Attributes:
-        places: `[R]` places of the map, -1 the last.
-        at: where among them the agent may be.
-        entered: `[R]` whether the agent was ever there.
-        B: P(s' | s, a).
-        successor: `[R, K]` the place each action most probably leads to, or -1.
-        blocked: `[R, K]` P(blocked | s, a).
-        ways: `[R, N + 1]` nats that visits teach of B_s.
-        untried: `[R, K]` nats that the first step along each way teaches; None where all are zero.
-        kept: what others worked out of these alone, to be found again.
-    """
-
-    places: Ints
-    at: Ints
-    entered: NDArray[np.bool_]
-    B: Transitions
-    successor: Ints
-    blocked: Floats
-    ways: Floats
-    untried: Floats | None
-    kept: Kept
+    places: Ints  # `[R]` places of the map, -1 the last
+    at: Ints  # where among them the agent may be
+    entered: NDArray[np.bool_]  # `[R]` whether the agent was ever there
+    B: Transitions  # P(s' | s, a)
+    successor: Ints  # `[R, K]` the place each action most probably leads to, or -1
+    blocked: Floats  # `[R, K]` P(blocked | s, a)
+    ways: Floats  # `[R, N + 1]` nats that visits teach of B_s
+    untried: Floats | None  # `[R, K]` nats that the first step along each way teaches; None where all are zero
+    kept: Kept  # what others worked out of these alone, to be found again
 
 
 class LocalCache:

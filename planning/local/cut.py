@@ -1,7 +1,5 @@
 """Cuts out of the map what a plan can see: the places within look-ahead of the belief, and their tables."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -19,40 +17,25 @@ from .structure import MapHypotheses, Structure
 from .transitions import Transitions, likeliest
 from .view import MapView
 
-FEW = 128
-"""Places up to which what their ways would tell of each is asked: the work is the square of their number."""
-SURE = 0.5
-"""Belief in one place from which on an agent explores by options from there."""
-HOPE = 0.4
-"""P(a way that is worth a try leads beyond) from which on plans count on it."""
+FEW = 128  # places up to which what their ways would tell of each is asked: the work is the square of their number
+SURE = 0.5  # belief in one place from which on an agent explores by options from there
+HOPE = 0.4  # P(a way that is worth a try leads beyond) from which on plans count on it
 
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What a policy generator is shown before the local model is cut, to ask for places further off.
+    """What a policy generator is shown before the local model is cut, to ask for places further off."""
 
-    Attributes:
-        map: the map.
-        cache: of its places.
-        starts: where the agent may be.
-        near: all places within look-ahead of these, however improbable the way, ascending.
-        preferences: what is hoped for.
-        open: for each action, whether its way is sensed open now.
-        unseen: for each action, whether nothing senses its way.
-        look_ahead: steps that policies look ahead.
-        structure: hypotheses about the map, side by side; None where there is but one.
-        prices: `[K]` what each action is expected to cost from where the agent is, in usual moves; None of all alike.
-    """
-
-    map: MapView
-    cache: LocalCache
-    starts: Ints
-    near: Ints
-    preferences: Preferences
-    open: Sequence[bool]
-    look_ahead: int
-    structure: Structure | None = None
-    unseen: Sequence[bool] = ()
+    map: MapView  # the map
+    cache: LocalCache  # of its places
+    starts: Ints  # where the agent may be
+    near: Ints  # all places within look-ahead of these, however improbable the way, ascending
+    preferences: Preferences  # what is hoped for
+    open: Sequence[bool]  # for each action, whether its way is sensed open now
+    look_ahead: int  # steps that policies look ahead
+    structure: Structure | None = None  # hypotheses about the map, side by side; None where there is but one
+    unseen: Sequence[bool] = ()  # for each action, whether nothing senses its way
+    # `[K]` what each action is expected to cost from where the agent is, in usual moves; None of all alike
     prices: Floats | None = None
 
     @property

@@ -1,7 +1,5 @@
 """Actions that lead nowhere around here: what is never open is not imagined to be."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,11 +8,8 @@ from .cache import WayRows
 from .transitions import Floats, Ints
 from .view import MapView
 
-RARE = 0.1
-"""P(open) below which a way of a place never entered is no way."""
-
-STRENGTH = 2.0
-"""Looks that the rate of all actions counts for, in the rate of one."""
+RARE = 0.1  # P(open) below which a way of a place never entered is no way
+STRENGTH = 2.0  # looks that the rate of all actions counts for, in the rate of one
 
 UNKNOWN = 0.4, 0.6
 """P(blocked) in between which nothing is known of a way."""

@@ -1,7 +1,5 @@
 """What planners work out of the ways of a cut alone, for the next plan there."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable
 from dataclasses import dataclass, field
 from typing import Any
@@ -9,12 +7,7 @@ from typing import Any
 
 @dataclass(slots=True)
 class Kept:
-    """Policies and rollouts that come out the same as long as the ways are.
+    """Policies and rollouts that come out the same as long as the ways are."""
 
-    Attributes:
-        policies: by what else they depend on.
-        rollouts: of these, by their `id`.
-    """
-
-    policies: dict[Hashable, Any] = field(default_factory=dict[Hashable, Any])
-    rollouts: dict[int, Any] = field(default_factory=dict[int, Any])
+    policies: dict[Hashable, Any] = field(default_factory=dict[Hashable, Any])  # by what else they depend on
+    rollouts: dict[int, Any] = field(default_factory=dict[int, Any])  # of these, by their `id`

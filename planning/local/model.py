@@ -9,14 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import CogmapError, Motions
+from ...model import CogmapError, Floats, Ints, Motions
 from .frontier import Frontier
 from .kept import Kept
 from .structure import Structure
 from .transitions import Transitions
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,65 +23,44 @@ class LocalModel:
     Local place `i` stands for place `places[i]` of the map; `-1` is "somewhere never imagined".
     Outcomes that no place in it tells apart are lumped: row `o` of `A` stands for `multiplicity[o]` sights that are
     alike, and holds their mass together.
-
-    Attributes:
-        motions: the `K` actions.
-        look_ahead: steps that the policy generators may use.
-        places: `[R]` places of the map.
-        belief: `[R]` Q(s) now.
-        A: `[O, R]` P(o | s); columns sum to one.
-        multiplicity: `[O]` sights that each row stands for.
-        log_C: `[O]` log preference of each of the sights in the row, in nats (its weight included).
-        log_C_place: `[R]` log preference of being in each place, in nats; zero where none is given.
-        B: P(s' | s, a), the few successors of each place.
-        blocked: `[R, K]` P(blocked | s, a); zero for `stay`.
-        collision_cost: -log P(c = 1) of the preferred outcomes, in nats.
-        information: for each table that is learned, by name (`sight`, `position`, `transition`), `[R, N + 1]` what `n`
-            visits of a place teach about it, in nats; column 0 is zero; `N` is at least `look_ahead`, and more than
-            `N` visits teach what `N` do.
-        successor: `[R, K]` the place each action most probably leads to; `-1` where the map says blocked or knows
-            nothing beyond.
-        entered: `[R]` whether the agent was ever there.
-        position: `[R, n]` where each place is, relative to the start; NaN where nobody knows.
-        discount: weight of each step of a policy relative to the one before, above 0, at most 1.
-        information_weight: weight of every information gain beside utility and costs, 0 or more.
-        dropped: belief in places that were left out, before `belief` was made to sum to one again.
-        structure: hypotheses about the map, side by side; None where there is but one.
-        senses: of each further sensor that sees labels, `[O', R]` as `A`.
-        looks: whether the ways of a place are sensed in it, and places are few enough to compare the ways of all.
-        costs: `[K]` what each action is expected to cost, in units of its own; None where that was never said.
-        frontier: the options of an agent that explores by them; None for others.
-        untried: `[R, K]` nats that the first step along each way teaches, where no visit has told whether it is open;
-            None where that is nothing.
-        prices: `[K]` what each action costs as the first of a policy, in usual moves; None where all cost the same.
-        kept: what was worked out of places, B, blocked, successor and entered alone, for models that share them.
     """
 
-    motions: Motions
-    look_ahead: int
-    places: Ints
-    belief: Floats
-    A: Floats
-    multiplicity: Floats
-    log_C: Floats
-    log_C_place: Floats
-    B: Transitions
-    blocked: Floats
-    collision_cost: float
+    motions: Motions  # the `K` actions
+    look_ahead: int  # steps that the policy generators may use
+    places: Ints  # `[R]` places of the map
+    belief: Floats  # `[R]` Q(s) now
+    A: Floats  # `[O, R]` P(o | s); columns sum to one
+    multiplicity: Floats  # `[O]` sights that each row stands for
+    log_C: Floats  # `[O]` log preference of each of the sights in the row, in nats (its weight included)
+    log_C_place: Floats  # `[R]` log preference of being in each place, in nats; zero where none is given
+    B: Transitions  # P(s' | s, a), the few successors of each place
+    blocked: Floats  # `[R, K]` P(blocked | s, a); zero for `stay`
+    collision_cost: float  # -log P(c = 1) of the preferred outcomes, in nats
+    # for each table that is learned, by name (`sight`, `position`, `transition`), `[R, N + 1]` what `n` visits
+    # of a place teach about it, in nats; column 0 is zero; `N` is at least `look_ahead`, and more than `N`
+    # visits teach what `N` do
     information: Mapping[str, Floats]
+    # `[R, K]` the place each action most probably leads to; `-1` where the map says blocked or knows nothing
+    # beyond
     successor: Ints
-    entered: NDArray[np.bool_]
-    position: Floats
-    discount: float = 1.0
-    information_weight: float = 1.0
-    dropped: float = 0.0
-    structure: Structure | None = None
-    senses: tuple[Floats, ...] = ()
+    entered: NDArray[np.bool_]  # `[R]` whether the agent was ever there
+    position: Floats  # `[R, n]` where each place is, relative to the start; NaN where nobody knows
+    discount: float = 1.0  # weight of each step of a policy relative to the one before, above 0, at most 1
+    information_weight: float = 1.0  # weight of every information gain beside utility and costs, 0 or more
+    dropped: float = 0.0  # belief in places that were left out, before `belief` was made to sum to one again
+    structure: Structure | None = None  # hypotheses about the map, side by side; None where there is but one
+    senses: tuple[Floats, ...] = ()  # of each further sensor that sees labels, `[O', R]` as `A`
+    # whether the ways of a place are sensed in it, and places are few enough to compare the ways of all
     looks: bool = False
+    # `[K]` what each action is expected to cost, in units of its own; None where that was never said
     costs: Floats | None = None
-    frontier: Frontier | None = None
+    frontier: Frontier | None = None  # the options of an agent that explores by them; None for others
+    # what was worked out of places, B, blocked, successor and entered alone, for models that share them
     kept: Kept | None = field(default=None, repr=False, compare=False)
+    # `[R, K]` nats that the first step along each way teaches, where no visit has told whether it is open; None
+    # where that is nothing
     untried: Floats | None = None
+    # `[K]` what each action costs as the first of a policy, in usual moves; None where all cost the same
     prices: Floats | None = None
 
     @property
@@ -193,5 +169,4 @@ def _need(fine: bool | np.bool_, what: str, remedy: str) -> None:
         raise CogmapError(f"local model: {what}; give {remedy}")
 
 
-_A_PLACE = ("places", "belief", "log_C_place", "blocked", "entered", "position")
-"""Tables with a row a place."""
+_A_PLACE = ("places", "belief", "log_C_place", "blocked", "entered", "position")  # tables with a row a place

@@ -1,7 +1,5 @@
 """What the agent hopes for."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -12,18 +10,13 @@ from .transitions import Floats, Ints
 
 @dataclass(frozen=True, slots=True)
 class Preferences:
-    """What the agent hopes for, and what it would rather not do.
+    """What the agent hopes for, and what it would rather not do."""
 
-    Attributes:
-        sights: log preference of sights by number, relative to all others, in nats; `-1` stands for a sight
-            never met.
-        places: log preference of being in a place, by number, relative to all others, in nats.
-        collision_cost: -log P(c = 1): what a collision costs, in nats.
-    """
-
+    # log preference of sights by number, relative to all others, in nats; `-1` stands for a sight never met
     sights: Mapping[int, float] = field(default_factory=dict[int, float])
+    # log preference of being in a place, by number, relative to all others, in nats
     places: Mapping[int, float] = field(default_factory=dict[int, float])
-    collision_cost: float = 1.0
+    collision_cost: float = 1.0  # -log P(c = 1): what a collision costs, in nats
 
     @property
     def known(self) -> bool:

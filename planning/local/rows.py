@@ -1,14 +1,13 @@
 """Rows that are worked out once, and again where what they come from has changed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-Ints = NDArray[np.int64]
+from ...model import Ints
+
 Columns = tuple[NDArray[Any], ...]
 
 

@@ -9,8 +9,7 @@ from typing import Protocol
 
 from ...model import CogmapError
 
-MOST = 8
-"""Hypotheses that are walked side by side, at most: the heaviest."""
+MOST = 8  # hypotheses that are walked side by side, at most: the heaviest
 
 Places = tuple[Hashable | None, ...]
 Classes = tuple[int, ...]
@@ -42,19 +41,12 @@ class MapHypotheses(Protocol):
 
 @dataclass(frozen=True)
 class Structure:
-    """Two hypotheses or more, side by side; steps are worked out once.
+    """Two hypotheses or more, side by side; steps are worked out once."""
 
-    Attributes:
-        hypotheses: all of them.
-        kept: numbers of those that are walked.
-        weights: of these, sum to one.
-        start: before the first step, when none of them can be told apart.
-    """
-
-    hypotheses: MapHypotheses
-    kept: tuple[int, ...]
-    weights: tuple[float, ...]
-    start: State
+    hypotheses: MapHypotheses  # all of them
+    kept: tuple[int, ...]  # numbers of those that are walked
+    weights: tuple[float, ...]  # of these, sum to one
+    start: State  # before the first step, when none of them can be told apart
     _steps: dict[tuple[State, int], State] = field(default_factory=dict[tuple[State, int], State], repr=False)
     _told: dict[Classes, float] = field(default_factory=dict[Classes, float], repr=False)
 

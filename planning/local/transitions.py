@@ -6,29 +6,21 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from ...model import Floats, Ints
+
 MANY = np.iinfo(np.int64).max
-FEW = 64
-"""Places up to which one dense product for all actions is quicker than anything that spares work."""
-
-WIDE = 8
-"""Actions from which on it pays to leave out those that no policy takes."""
+FEW = 64  # places up to which one dense product for all actions is quicker than anything that spares work
+WIDE = 8  # actions from which on it pays to leave out those that no policy takes
 
 
 @dataclass(frozen=True)
 class Transitions:
-    """P(s' | s, a) over `R` places, its few successors alone.
+    """P(s' | s, a) over `R` places, its few successors alone."""
 
-    Attributes:
-        successors: `[R, K, n]` places that an action may lead to; one may be named more than once.
-        probability: `[R, K, n]` of each; sums to one over the last axis, zero where a slot is unused.
-    """
-
-    successors: Ints
-    probability: Floats
+    successors: Ints  # `[R, K, n]` places that an action may lead to; one may be named more than once
+    probability: Floats  # `[R, K, n]` of each; sums to one over the last axis, zero where a slot is unused
 
     @classmethod
     def of(cls, dense: ArrayLike) -> Transitions:

@@ -1,16 +1,12 @@
 """All that a planner reads of a map: `CognitiveMap` has it, and so may anything else that is to be planned with."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import Motions, Pose, Sensor, Sight, SparseDirichlet, Transition
-
-Ints = NDArray[np.int64]
+from ...model import Ints, Motions, Pose, Sensor, Sight, SparseDirichlet, Transition
 
 
 class MapView(Protocol):

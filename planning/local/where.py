@@ -1,14 +1,11 @@
 """Where the places of a map are, as an array that follows the map."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .transitions import Floats, Ints
 from .view import MapView
 
-FAR = 1e15
-"""Beyond are no positions."""
+FAR = 1e15  # beyond are no positions
 
 
 class Where:

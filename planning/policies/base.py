@@ -1,7 +1,5 @@
 """What every policy generator returns, and the few steps they share."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -9,13 +7,11 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...model import CogmapError, Motions
+from ...model import CogmapError, Ints, Motions
 from ..local import LocalModel, Surroundings
 from ..prefixes import Prefixes, prefixes_of
 
-Ints = NDArray[np.int64]
 MAX_POLICIES = 2_000_000
 MAX_LOOK_AHEAD = 1_000
 
@@ -24,16 +20,12 @@ MAX_LOOK_AHEAD = 1_000
 class Policies:
     """The action sequences to compare.
 
-    Attributes:
-        actions: `[P, L]` action indices, rows unique; a policy that ends early stays to the end.
-        cut: promising prefixes that a bound on the search left out (zero: nothing was left out).
-
     Raises:
         CogmapError: `actions` is not a non-empty two-dimensional array of integers.
     """
 
-    actions: Ints
-    cut: int = 0
+    actions: Ints  # `[P, L]` action indices, rows unique; a policy that ends early stays to the end
+    cut: int = 0  # promising prefixes that a bound on the search left out (zero: nothing was left out)
 
     def __post_init__(self) -> None:
         shape, kind = np.shape(self.actions), np.asarray(self.actions).dtype.kind

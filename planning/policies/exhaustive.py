@@ -1,7 +1,5 @@
 """Every sequence of actions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar

@@ -5,24 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...model import Floats, Ints
 from ..local import Surroundings
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
-FAR = 8
-"""Promising places beyond the look-ahead that a plan takes in, at most."""
-
-PROMISING = 0.1
-"""P(o | s) of a preferred sight from which a place is promising."""
-
-LONG = 24
-"""Steps of a search from which on it is kept, to go on from."""
-
-MORE = 1.1
-"""By how much what is further off must be worth more than all that is nearer."""
+FAR = 8  # promising places beyond the look-ahead that a plan takes in, at most
+PROMISING = 0.1  # P(o | s) of a preferred sight from which a place is promising
+LONG = 24  # steps of a search from which on it is kept, to go on from
+MORE = 1.1  # by how much what is further off must be worth more than all that is nearer
 
 
 def far_ways(around: Surroundings) -> Ints:
@@ -49,24 +39,16 @@ def far_ways(around: Surroundings) -> Ints:
 
 @dataclass(slots=True)
 class _Search:
-    """Breadth first along likely ways, until nothing can be worth more than the best that was met.
+    """Breadth first along likely ways, until nothing can be worth more than the best that was met."""
 
-    Attributes:
-        around: what is searched.
-        most: what any place may be worth.
-        best: the greatest worth so far.
-        steps: from the start to the places that come next, `frontier`.
-        ends: places beyond look-ahead that are worth more than all before them.
-        parent: the place before each on the way there.
-    """
-
-    around: Surroundings
-    most: float
-    best: float = 0.0
-    steps: int = 0
+    around: Surroundings  # what is searched
+    most: float  # what any place may be worth
+    best: float = 0.0  # the greatest worth so far
+    steps: int = 0  # from the start to the places that come next, `frontier`
+    # places beyond look-ahead that are worth more than all before them
     ends: list[int] = field(default_factory=list[int])
     frontier: Ints = field(init=False)
-    parent: dict[int, int] = field(init=False)
+    parent: dict[int, int] = field(init=False)  # the place before each on the way there
 
     def __post_init__(self) -> None:
         self.frontier = self.around.starts

@@ -6,27 +6,19 @@ import heapq
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
+from ...model import Floats, Ints
 from ..local import Frontier, Surroundings
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 STEPS, METRES = "steps", "metres"
 BY = (STEPS, METRES)
 """What ways are measured in: one a step, or how far apart places lie, over the mean length of a way."""
 
-MOST = 64
-"""Options that are weighed, the nearest, and equals of the last of them."""
-
-DOUBT = 4.0
-"""Steps that it is worth to see where a way leads, for each standard deviation that it would be long."""
-
-SAMPLE = 512
-"""Other places never entered to which the way back is measured, at most, spread evenly over all."""
+MOST = 64  # options that are weighed, the nearest, and equals of the last of them
+DOUBT = 4.0  # steps that it is worth to see where a way leads, for each standard deviation that it would be long
+SAMPLE = 512  # other places never entered to which the way back is measured, at most, spread evenly over all
 
 LARGEST = 1_000
 """Places of the largest map in which ways back are measured along its ways, where places have no positions."""
@@ -79,21 +71,13 @@ def _doubted(around: Surroundings, search: _Search, most: int) -> Frontier | Non
 
 @dataclass(slots=True)
 class _Search:
-    """From the place where the agent most probably is.
+    """From the place where the agent most probably is."""
 
-    Attributes:
-        depth: how far it is to each place that was met.
-        ends: places never entered, the nearest first.
-        by: what ways are measured in.
-        before: the place and the action that lead to each.
-        prices: `[K]` what the first step costs, by its action; None where that is one.
-    """
-
-    depth: dict[int, float]
-    ends: list[int]
-    by: str
-    before: dict[int, tuple[int, int]]
-    prices: Floats | None = None
+    depth: dict[int, float]  # how far it is to each place that was met
+    ends: list[int]  # places never entered, the nearest first
+    by: str  # what ways are measured in
+    before: dict[int, tuple[int, int]]  # the place and the action that lead to each
+    prices: Floats | None = None  # `[K]` what the first step costs, by its action; None where that is one
 
     def extra(self, end: int) -> float:
         """What the first step of the way there costs more than a usual one."""

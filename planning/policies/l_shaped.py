@@ -1,7 +1,5 @@
 """Straight on, then once around a corner."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar

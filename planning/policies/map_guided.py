@@ -7,15 +7,13 @@ from operator import itemgetter
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...model import CogmapError, Motions
+from ...model import CogmapError, Floats, Motions
 from ..local import LocalModel, Surroundings
 from .base import MAX_POLICIES, Ints, Policies, PolicyGenerator, padded
 from .far_ways import MORE, far_ways
 from .telling import telling_walks
 
-Floats = NDArray[np.float64]
 LEAST = 1e-3  # nats; a first visit that is worth less is worth nothing
 SHARE = 0.1  # nor is one below this share of the greatest value in the model
 GREAT = 0.5  # share of the greatest value that a start must have within look-ahead, or it looks beyond
@@ -53,15 +51,12 @@ class MapGuided(PolicyGenerator):
 
     `Policies.cut` is the number of prefixes that the beam dropped.
 
-    Attributes:
-        beam: prefixes kept a level, shared by the starts.
-
     Raises:
         CogmapError: `beam` is no whole number from 1 to `MAX_POLICIES`.
     """
 
     name: ClassVar[str] = "map_guided"
-    beam: int = 64
+    beam: int = 64  # prefixes kept a level, shared by the starts
 
     def __post_init__(self) -> None:
         whole = isinstance(self.beam, int | np.integer)  # pyright: ignore[reportUnnecessaryIsInstance]

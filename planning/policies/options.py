@@ -1,7 +1,5 @@
 """Exploring by options: the likely shortest ways to places never entered."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -28,23 +26,17 @@ class Options(PolicyGenerator):
 
     After "Information Gain Is Not All You Need" (Ericson, Pedro, Jensfelt, arXiv 2504.01980), a distance advantage.
 
-    Attributes:
-        weight: lambda, what a step of the way back counts beside one of the way there; below 1.
-        cost: of a step, in nats.
-        kept: of so many of the best options the plan keeps record.
-        near: whether options also decide where something new is within the look-ahead.
-        by: what d and the way back are measured in: "steps", or "metres", over the mean length of a way, where places
-            have positions in metres; l is the mean length then.
-
     Raises:
         CogmapError: a number is out of range, or `by` is neither.
     """
 
     name: ClassVar[str] = "options"
-    weight: float = 0.5
-    cost: float = 1.0
-    kept: int = 8
-    near: bool = True
+    weight: float = 0.5  # lambda, what a step of the way back counts beside one of the way there; below 1
+    cost: float = 1.0  # of a step, in nats
+    kept: int = 8  # of so many of the best options the plan keeps record
+    near: bool = True  # whether options also decide where something new is within the look-ahead
+    # what d and the way back are measured in: "steps", or "metres", over the mean length of a way, where places
+    # have positions in metres; l is the mean length then
     by: str = STEPS
 
     def __post_init__(self) -> None:

@@ -1,7 +1,5 @@
 """Walks that never return on their track, with a stop after each step."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar

@@ -1,7 +1,5 @@
 """Walks that tell hypotheses about the map apart."""
 
-from __future__ import annotations
-
 from collections import deque
 
 from ...model import Motions
@@ -10,17 +8,10 @@ from .far_ways import MORE
 
 Path = tuple[int, ...]
 
-STATES = 1000
-"""Joint states of the hypotheses that the search looks at, at most."""
-
-ENOUGH = 0.9
-"""Share of what there is to be told from which no longer walk is looked for."""
-
-LEAST_TOLD = 2e-3
-"""Nats about the map below which a walk is not worth its steps."""
-
-MANY = 8
-"""Walks that are found, at most."""
+STATES = 1000  # joint states of the hypotheses that the search looks at, at most
+ENOUGH = 0.9  # share of what there is to be told from which no longer walk is looked for
+LEAST_TOLD = 2e-3  # nats about the map below which a walk is not worth its steps
+MANY = 8  # walks that are found, at most
 
 
 def telling_walks(structure: Structure, motions: Motions) -> list[Path]:

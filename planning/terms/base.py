@@ -1,7 +1,5 @@
 """What a term of expected free energy is: its name and looks, and what it gains over a rollout."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """The risk of running into a wall."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .base import Term

@@ -1,7 +1,5 @@
 """What moves cost."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,9 +14,6 @@ from .rolled import Floats, Rollout
 class Cost(Term):
     """Expected cost of the actions, as percepts have said it so far (ours); it is not among `TERMS`.
 
-    Attributes:
-        price: nats that one unit of cost is worth.
-
     Raises:
         CogmapError: the price is negative, or not finite.
     """
@@ -30,7 +25,7 @@ class Cost(Term):
     colour = "#8c564b"
     equation = "price E[cost | a_t]"
     meaning = "what its moves cost"
-    price: float = 0.01
+    price: float = 0.01  # nats that one unit of cost is worth
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.price < np.inf:

@@ -1,7 +1,5 @@
 """What visits teach about a table: the information gains of eq. 8 (learning)."""
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 import numpy as np

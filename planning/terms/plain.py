@@ -1,7 +1,5 @@
 """One step of one policy in plain Python, and the sums over places that the plain terms share."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import floor, log
@@ -11,32 +9,21 @@ from ..local import LocalModel
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of one policy; lists have an entry a place.
+    """One step of one policy; lists have an entry a place."""
 
-    Attributes:
-        model: the local model.
-        action: what is done.
-        before: Q_{t-1}, the belief before.
-        after: Q_t, the belief after.
-        visits_before: expected visits of each place, up to the step before.
-        visits: the same, this step included.
-        reached_before: probability of any visit of each place, up to the step before: the largest belief so far.
-        reached: the same, this step included.
-        path: the actions so far, this one included.
-        tried_before: probability that each action was tried in each place up to the step before, by (place, action).
-        tried: the same, this step included.
-    """
-
-    model: LocalModel
-    action: int
-    before: Sequence[float]
-    after: Sequence[float]
-    visits_before: Sequence[float]
-    visits: Sequence[float]
+    model: LocalModel  # the local model
+    action: int  # what is done
+    before: Sequence[float]  # Q_{t-1}, the belief before
+    after: Sequence[float]  # Q_t, the belief after
+    visits_before: Sequence[float]  # expected visits of each place, up to the step before
+    visits: Sequence[float]  # the same, this step included
+    # probability of any visit of each place, up to the step before: the largest belief so far
     reached_before: Sequence[float]
-    reached: Sequence[float]
-    path: Sequence[int] = ()
+    reached: Sequence[float]  # the same, this step included
+    path: Sequence[int] = ()  # the actions so far, this one included
+    # probability that each action was tried in each place up to the step before, by (place, action)
     tried_before: Mapping[tuple[int, int], float] = field(default_factory=dict[tuple[int, int], float])
+    # the same, this step included
     tried: Mapping[tuple[int, int], float] = field(default_factory=dict[tuple[int, int], float])
 
 

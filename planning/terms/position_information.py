@@ -1,7 +1,5 @@
 """What visits teach about A_p."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .learned import Learned

@@ -8,33 +8,22 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...model import Floats, Ints
 from ..local import LocalModel
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
 _OF_BELIEFS = ("staying", "visits", "reached", "_so_far", "_visited", "_held", "_belief_held")
-FEW = 64
-"""Places up to which it does not pay to leave out those without belief."""
+FEW = 64  # places up to which it does not pay to leave out those without belief
 
 
 @dataclass(frozen=True)
 class Rollout:
-    """What is expected after each of `N` prefixes of policies, level by level; the first of them is empty.
+    """What is expected after each of `N` prefixes of policies, level by level; the first of them is empty."""
 
-    Attributes:
-        model: the local model of `R` places.
-        parent: `[N]` the prefix that is one step shorter; the empty one is its own.
-        action: `[N]` the last action; of the empty prefix it means nothing.
-        levels: for each length from 1 on, where the prefixes of that length begin and end.
-        belief: `[N, R]` Q after each prefix.
-    """
-
-    model: LocalModel
-    parent: Ints
-    action: Ints
-    levels: list[tuple[int, int]]
-    belief: Floats
+    model: LocalModel  # the local model of `R` places
+    parent: Ints  # `[N]` the prefix that is one step shorter; the empty one is its own
+    action: Ints  # `[N]` the last action; of the empty prefix it means nothing
+    levels: list[tuple[int, int]]  # for each length from 1 on, where the prefixes of that length begin and end
+    belief: Floats  # `[N, R]` Q after each prefix
 
     def again(self, model: LocalModel) -> Rollout:
         """The same beliefs in a model of other sights; what was worked out of the beliefs alone comes along."""
@@ -118,15 +107,10 @@ class Rollout:
 
 @dataclass(frozen=True)
 class Staying(Rollout):
-    """One step that stays after each of some prefixes, and leaves every belief as it is; each is its own parent.
+    """One step that stays after each of some prefixes, and leaves every belief as it is; each is its own parent."""
 
-    Attributes:
-        rolled: the rollout that the prefixes are of; visits are those before the step.
-        ends: which of its prefixes.
-    """
-
-    rolled: Rollout
-    ends: Ints
+    rolled: Rollout  # the rollout that the prefixes are of; visits are those before the step
+    ends: Ints  # which of its prefixes
 
     @classmethod
     def after(cls, rolled: Rollout, ends: Ints) -> Staying:

@@ -1,7 +1,5 @@
 """What visits teach about A_o."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .learned import Learned

@@ -1,7 +1,5 @@
 """What sensors would tell about the place."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import log, prod, sqrt
 
@@ -20,10 +18,6 @@ class StateInformation(Term):
     To stay is to look again at what was seen. Of one sensor of labels it is exact; the multiplicity of lumped sights
     cancels. Of several sensors, and of ways, it is the bound of Kolchinsky and Tracey (Entropy 2017, 19, 361) from
     below, which multiplies over sensors: exact where any two places sense the same, or nothing alike.
-
-    Attributes:
-        ways: whether what is sensed of ways counts while it is open where the agent is. (Of one that knows it says what
-            imagined ways would teach, which is told by another term.)
     """
 
     name = "state_information"
@@ -33,6 +27,8 @@ class StateInformation(Term):
     colour = "#0072b2"
     equation = "H[P_t] - sum_s Q_t(s) H[A[:, s]], P_t = A Q_t; 0 where the step stays"
     meaning = "information about where it is"
+    # whether what is sensed of ways counts while it is open where the agent is. (Of one that knows it says what
+    # imagined ways would teach, which is told by another term.)
     ways: bool = True
 
     def gain(self, rollout: Rollout) -> Floats:

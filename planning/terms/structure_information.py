@@ -1,7 +1,5 @@
 """What is sensed on the way would tell about the map as a whole."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,10 +18,6 @@ class StructureInformation(Term):
     The hypotheses walk side by side, and what they expect to sense divides them into classes that only grow apart, so
     each difference counts once. To stay tells nothing. With one hypothesis it is 0.
 
-    Attributes:
-        weight: how often a nat about the map counts: what is learned anywhere is worth little while it is open which
-            place that is.
-
     Raises:
         CogmapError: the weight is negative, or not finite.
     """
@@ -35,6 +29,8 @@ class StructureInformation(Term):
     colour = "#7a7a7a"
     equation = "w (H[classes of hypotheses, t] - H[classes of hypotheses, t-1])"
     meaning = "information about the map's structure"
+    # how often a nat about the map counts: what is learned anywhere is worth little while it is open which
+    # place that is
     weight: float = 10.0
 
     def __post_init__(self) -> None:

@@ -1,7 +1,5 @@
 """What visits and steps teach about B_s."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is preferred."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .base import Term

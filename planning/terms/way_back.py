@@ -1,7 +1,5 @@
 """What it spares to have been somewhere already, when all else is left to see."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,11 +12,7 @@ from .rolled import Floats, Rollout
 
 @dataclass(frozen=True, slots=True)
 class WayBack(Term):
-    """The way back to a place never entered, from what else was never entered, when it is entered now.
-
-    Attributes:
-        cost: of a step of that way, in nats.
-    """
+    """The way back to a place never entered, from what else was never entered, when it is entered now."""
 
     name = "way_back"
     label = "way back"
@@ -27,7 +21,7 @@ class WayBack(Term):
     colour = "#0072b2"
     equation = "c E_g |x_f - x_g| / l where the step first enters an option's end f"
     meaning = "the way back later that it spares"
-    cost: float = 0.5
+    cost: float = 0.5  # of a step of that way, in nats
 
     def gain(self, rollout: Rollout) -> Floats:
         at = rollout.belief.argmax(axis=1)

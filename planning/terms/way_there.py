@@ -1,7 +1,5 @@
 """What the way to somewhere costs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,11 +11,7 @@ from .rolled import Floats, Rollout
 
 @dataclass(frozen=True, slots=True)
 class WayThere(Term):
-    """Each step that does not stay, or its length where ways are measured in metres, while anything is unknown.
-
-    Attributes:
-        cost: of a step, in nats.
-    """
+    """Each step that does not stay, or its length where ways are measured in metres, while anything is unknown."""
 
     name = "way_there"
     label = "way there"
@@ -26,7 +20,7 @@ class WayThere(Term):
     colour = "#d55e00"
     equation = "c |step| where the step does not stay; of the first step what it costs here"
     meaning = "the way there"
-    cost: float = 1.0
+    cost: float = 1.0  # of a step, in nats
 
     def gain(self, rollout: Rollout) -> Floats:
         moved = np.where(rollout.staying, 0.0, self.cost)

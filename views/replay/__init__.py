@@ -1,7 +1,5 @@
 """The replay page: one HTML file that shows a recording step by step."""
 
-from __future__ import annotations
-
 from .page import replay_html
 
 __all__ = ["replay_html"]

@@ -1,7 +1,5 @@
 """Worlds on graphs: places joined by ways of their own, from files of many kinds or from networkx."""
 
-from __future__ import annotations
-
 from .build import POSES
 from .families import geometric, portal_hall, ring, torus
 from .files import is_graph_file, read_graph

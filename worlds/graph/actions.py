@@ -1,7 +1,5 @@
 """What the ways of a graph are called, and which actions an agent has there."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -16,8 +14,7 @@ from .geometry import Ends, Floats
 from .raw import Edges, RawGraph, label, number, shown, some
 
 STAY = "stay"
-MOST_ACTIONS = 16
-"""So many names of ways are actions of the whole world; with more, ways belong to the place."""
+MOST_ACTIONS = 16  # so many names of ways are actions of the whole world; with more, ways belong to the place
 
 
 def declared(raw: RawGraph) -> dict[str, tuple[int, ...]] | None:

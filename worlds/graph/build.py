@@ -1,7 +1,5 @@
 """From nodes and edges as they were written to a world that can be lived in, or to one clear error."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -16,9 +14,13 @@ from .layout import Layout
 from .raw import Attributes, RawGraph, label, shown, some
 from .sensors import sensors_of
 
-POSES = ("motions", "displacement", "bearing", "none")
+POSES = ("motions", "displacement", "lengths", "bearing", "none")
 """What an agent is told of a pose: the displacements that `graph.motions` declares; the displacement measured after
-each move; the bearing of each way; nothing. The first that is known is the default."""
+each move, and the bearing of each way; the same, and how long each way is before it was walked; bearings alone;
+nothing. The first that is known is the default."""
+
+BEARINGS = ("displacement", "lengths", "bearing")
+"""Those of which the bearings of ways are part."""
 
 
 def build(
@@ -54,7 +56,7 @@ def build(
     first = np.searchsorted(ends[order, 0], np.arange(len(places) + 1))
     ordered = geometry.ordered(order)
     if named is None:
-        ways = local_labels(first.tolist(), ordered.bearings if told in ("displacement", "bearing") else None)
+        ways = local_labels(first.tolist(), ordered.bearings if told in BEARINGS else None)
     else:
         ways = [named[i] for i in order.tolist()]
     _check_ways(raw, places, first, ways)

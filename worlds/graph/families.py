@@ -3,8 +3,6 @@
 In all of them `sights` is `"distinct"`, `"ways"`, or how many at random, and `seed` settles what is drawn.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 

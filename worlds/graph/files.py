@@ -1,7 +1,5 @@
 """Graphs in files: node-link JSON as networkx writes it, GraphML, and topological maps of ROS in YAML."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -13,14 +11,9 @@ from .build import build
 from .layout import Layout
 from .raw import RawGraph, shown
 
-LARGEST = 100 * 2**20
-"""Bytes of the largest graph file that is read."""
-
-LARGEST_YAML = 16 * 2**20
-"""The same of YAML, which takes long to read."""
-
-MOST = 4_000_000
-"""Nodes and edges in a file; aliases of YAML make many of little text."""
+LARGEST = 100 * 2**20  # bytes of the largest graph file that is read
+LARGEST_YAML = 16 * 2**20  # the same of YAML, which takes long to read
+MOST = 4_000_000  # nodes and edges in a file; aliases of YAML make many of little text
 
 
 def is_graph_file(path: str | Path) -> bool:

@@ -32,9 +32,9 @@ class Geometry:
         return cls(where, bearings(raw, ends, edges, where), lengths(raw, ends, edges, where))
 
     def poses(self) -> list[str]:
-        """What can be told of a pose, the most first."""
+        """What can be told of a pose, the usual first."""
         lies = self.coordinates is not None or (self.bearings is not None and self.lengths is not None)
-        return ["displacement"] * lies + ["bearing"] * (self.bearings is not None) + ["none"]
+        return ["displacement", "lengths"] * lies + ["bearing"] * (self.bearings is not None) + ["none"]
 
     def order(self, sources: NDArray[np.int32]) -> NDArray[np.intp]:
         """The ways by the place that they leave, and there by their bearings."""

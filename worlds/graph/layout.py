@@ -1,7 +1,5 @@
 """The places of a graph and the ways between them, as arrays: a hundred thousand places take some tens of megabytes."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -76,11 +74,7 @@ class Layout:
         return None if where is None else _Column(self._index, lambda i: tuple(where[i].tolist()))
 
     def find(self, place: Any) -> Any:
-        """`place` as it stands in `places`.
-
-        Raises:
-            WorldError: there is no such place.
-        """
+        """`place` as it stands in `places`. Raises WorldError: there is no such place."""
         return self.places[self._number(place)]
 
     def exits(self, place: Any) -> dict[Any, Any]:
@@ -101,6 +95,10 @@ class Layout:
     def told_bearings(self, place: Any) -> dict[Any, float]:
         """The bearing of each way of `place`, in degrees."""
         return {} if self.bearings is None else {self.ways[i]: float(self.bearings[i]) for i in self._row(place)}
+
+    def told_lengths(self, place: Any) -> dict[Any, float]:
+        """How long each way of `place` is."""
+        return {} if self.lengths is None else {self.ways[i]: float(self.lengths[i]) for i in self._row(place)}
 
     def length(self, place: Any, way: Any) -> float | None:
         """How long a way is; 0 of none, None where nobody knows."""

@@ -24,23 +24,14 @@ Edges = Sequence[tuple[Attributes, bool]]
 
 @dataclass(frozen=True, slots=True)
 class RawGraph:
-    """Nodes and edges before anybody has looked at them.
+    """Nodes and edges before anybody has looked at them."""
 
-    Attributes:
-        name: what the graph is called.
-        source: what errors call it, such as the path of its file.
-        directed: whether an edge leads one way only.
-        attributes: of the graph.
-        nodes: the id and the attributes of each.
-        edges: source, target and attributes of each.
-    """
-
-    name: str
-    source: str
-    directed: bool
-    attributes: Attributes
-    nodes: Sequence[tuple[Any, Attributes]]
-    edges: Sequence[tuple[Any, Any, Attributes]]
+    name: str  # what the graph is called
+    source: str  # what errors call it, such as the path of its file
+    directed: bool  # whether an edge leads one way only
+    attributes: Attributes  # of the graph
+    nodes: Sequence[tuple[Any, Attributes]]  # the id and the attributes of each
+    edges: Sequence[tuple[Any, Any, Attributes]]  # source, target and attributes of each
 
     @classmethod
     def of(cls, graph: nx.Graph[Any], *, name: str, source: str) -> RawGraph:
@@ -82,11 +73,7 @@ def _parts(value: Any, depth: int) -> int:
 
 
 def number(value: Any, where: str) -> float:
-    """A finite number, also where it is written as text.
-
-    Raises:
-        WorldError: it is none.
-    """
+    """A finite number, also where it is written as text. Raises WorldError: it is none."""
     try:
         found = math.nan if isinstance(value, bool) else float(value)
     except (TypeError, ValueError, OverflowError):

@@ -1,7 +1,5 @@
 """What is sensed at the nodes of a graph."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,7 +8,7 @@ from ..sights import Sights, give_sights
 from .raw import RawGraph, label, shown, some
 
 _GIVEN = "sights='distinct', 'ways' or K (on the command line --sights)"
-_TAKEN = ("open", "ways", "bearings", "displacement", "taken", "outcome", "turn", "moved", "cost")
+_TAKEN = ("open", "ways", "bearings", "lengths", "displacement", "taken", "outcome", "turn", "moved", "cost")
 _NO_SENSORS = frozenset({"id", "position", "x", "y", "z", "name", "label"})
 
 

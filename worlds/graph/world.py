@@ -12,7 +12,7 @@ from ..base import PlaceEnv
 from ..protocol import Observation
 from ..sights import Sights
 from ..spaces import PerWay, label_space
-from .build import build
+from .build import BEARINGS, build
 from .layout import Layout
 from .raw import RawGraph
 
@@ -29,8 +29,9 @@ class GraphWorld(PlaceEnv):
     `{"sight": label, "open": bool array}`, one flag an action. Where ways belong to the place, it is
     `{"sight": label, "ways": {label of a way: open}}`: action 0 stays, action i + 1 takes the i-th way listed. With
     several sensors each has a key of its own instead of `sight`. Where bearings are told there is `"bearings": {way:
-    degrees}`, and where displacements are told `"displacement"`, what the last step measured along each axis. The true
-    place is in `info["place"]` alone, the length of the last move in `info["cost"]`.
+    degrees}`, where displacements are told `"displacement"`, what the last step measured along each axis, and where
+    lengths are told `"lengths": {way: how long}`. The true place is in `info["place"]` alone, the length of the last
+    move in `info["cost"]`.
 
     Args:
         layout: the places and ways; see `read_graph` and `from_networkx`.
@@ -97,16 +98,18 @@ class GraphWorld(PlaceEnv):
             observation["ways"] = {way: other is not None for way, other in exits.items() if way != "stay"}
         else:
             observation["open"] = np.array([other is not None for other in exits.values()])
-        if layout.pose in ("bearing", "displacement"):
+        if layout.pose in BEARINGS:
             observation["bearings"] = layout.told_bearings(place)
-        if layout.pose == "displacement":
+        if layout.pose == "lengths":
+            observation["lengths"] = layout.told_lengths(place)
+        if layout.pose in ("displacement", "lengths"):
             observation["displacement"] = self._displacement.copy()
         return observation
 
     def moved(self, place: Any, way: Any, ahead: Any | None) -> dict[str, Any]:
         """Measure the move that was just made."""
         passed = way if ahead is not None else None
-        if self.layout.pose == "displacement":
+        if self.layout.pose in ("displacement", "lengths"):
             self._displacement = self.layout.displacement(place, passed)
         length = self.layout.length(place, passed)
         return {} if length is None else {"cost": length}
@@ -120,9 +123,11 @@ def _spaces(layout: Layout) -> dict[str, spaces.Space[Any]]:
         found["ways"] = PerWay(layout.ways)
     else:
         found["open"] = spaces.MultiBinary(len(layout.motions.names))
-    if layout.pose in ("bearing", "displacement"):
-        found["bearings"] = PerWay(layout.ways, degrees=True)
-    if layout.pose == "displacement":
+    if layout.pose in BEARINGS:
+        found["bearings"] = PerWay(layout.ways, numbers=True)
+    if layout.pose == "lengths":
+        found["lengths"] = PerWay(layout.ways, numbers=True)
+    if layout.pose in ("displacement", "lengths"):
         size = 2 if layout.coordinates is None else layout.coordinates.shape[1]
         found["displacement"] = spaces.Box(-_FARTHEST, _FARTHEST, (size,), dtype=np.float64)
     return found

@@ -1,7 +1,5 @@
 """Room mazes, and any others, as MiniGrid environments; MiniGrid itself is imported when one is made."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 

@@ -1,7 +1,5 @@
 """A room maze as a MiniGrid environment: coloured rooms, corridors with closed doors at random places."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -24,8 +22,7 @@ from .tally import Tally
 from .tiles import TILE, ColouredFloor, paint
 
 VIEWS = ("symbolic", "rgb")
-STEPS_A_TILE = 18
-"""Low-level steps a tile after which the authors end a run."""
+STEPS_A_TILE = 18  # low-level steps a tile after which the authors end a run
 
 _OPTIONS = frozenset({"start", "heading"})
 

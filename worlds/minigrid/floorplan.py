@@ -1,7 +1,5 @@
 """A maze laid out in tiles: rooms of floor, passages between them, a door in each."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,19 +15,12 @@ Tile = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """What joins two rooms.
+    """What joins two rooms."""
 
-    Attributes:
-        rooms: the two, in row-major order.
-        tiles: from the one to the other, floors of rooms left out.
-        door: the tile of the door.
-        locked: whether it takes a key.
-    """
-
-    rooms: tuple[Position, Position]
-    tiles: tuple[Tile, ...]
-    door: Tile
-    locked: bool = False
+    rooms: tuple[Position, Position]  # the two, in row-major order
+    tiles: tuple[Tile, ...]  # from the one to the other, floors of rooms left out
+    door: Tile  # the tile of the door
+    locked: bool = False  # whether it takes a key
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,5 @@
 """How rooms, corridors and doors are measured, in tiles."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from ..errors import WorldError
@@ -14,22 +12,16 @@ DOORS = ("middle", "anywhere")
 class Geometry:
     """The authors' geometry unless told otherwise: rooms of 4 by 4 tiles, passages of 5, the door in the middle.
 
-    Attributes:
-        least: tiles that a side of a room has at least; each side of each room is drawn evenly.
-        most: and at most.
-        passage: tiles between the floors of two rooms whose sides are the longest: 1 is a door in a common wall.
-        door: in the `"middle"` of its passage, or `"anywhere"` in it.
-        locked: how many doors are locked. A key of its colour for each lies somewhere, and every room can be reached
-            without any.
-
     Raises:
         WorldError: a number out of range: rooms too small for their doors, or too large.
     """
 
-    least: int = 4
-    most: int = 4
-    passage: int = 5
-    door: str = "middle"
+    least: int = 4  # tiles that a side of a room has at least; each side of each room is drawn evenly
+    most: int = 4  # and at most
+    passage: int = 5  # tiles between the floors of two rooms whose sides are the longest: 1 is a door in a common wall
+    door: str = "middle"  # in the `"middle"` of its passage, or `"anywhere"` in it
+    # how many doors are locked. A key of its colour for each lies somewhere, and every room can be reached
+    # without any
     locked: int = 0
 
     def __post_init__(self) -> None:

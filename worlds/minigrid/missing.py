@@ -1,7 +1,5 @@
 """MiniGrid is imported where it is used, and named where it is missing."""
 
-from __future__ import annotations
-
 import os
 from importlib import import_module
 

@@ -1,7 +1,5 @@
 """Colours of floors: MiniGrid has six, mazes up to sixteen sights."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping
 
 from ..errors import WorldError
@@ -38,8 +36,7 @@ WHITE = SIGHTS
 """The number of the white floor."""
 
 _BASE = 6  # colours of MiniGrid, of which there is a row for each state from 1 on; state 0 is MiniGrid's own floor
-FLOOR = 3
-"""What MiniGrid calls a floor in its encoding."""
+FLOOR = 3  # what MiniGrid calls a floor in its encoding
 
 
 def encode_floor(number: int) -> tuple[int, int, int]:
@@ -56,11 +53,7 @@ def decode_floor(colour: int, state: int) -> int | None:
 
 
 def floors_of(name: str, sights: Iterable[Hashable]) -> Mapping[Hashable, int]:
-    """The floor of each sight, in the order of the labels.
-
-    Raises:
-        WorldError: there are more sights than colours.
-    """
+    """The floor of each sight, in the order of the labels. Raises WorldError: there are more sights than colours."""
     labels = sorted(set(sights), key=lambda label: (isinstance(label, str), label))
     if len(labels) > SIGHTS:
         raise WorldError(f"maze {name!r} has {len(labels)} sights, and floors have {SIGHTS} colours; use fewer sights")

@@ -1,7 +1,5 @@
 """How few low-level steps would do, for one who knows everything: exact."""
 
-from __future__ import annotations
-
 import heapq
 from collections import deque
 from collections.abc import Collection

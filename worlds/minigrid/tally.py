@@ -1,7 +1,5 @@
 """What the experimenter counts: tiles seen, rooms entered, and when. No agent sees it."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

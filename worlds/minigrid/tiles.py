@@ -1,7 +1,5 @@
 """Tiles as they are encoded, and as they look: what both views show."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import Any
 

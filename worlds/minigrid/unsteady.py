@@ -1,7 +1,5 @@
 """Noise in pixels and in actions of a MiniGrid environment."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import gymnasium as gym
@@ -10,8 +8,7 @@ import numpy as np
 from ..errors import WorldError
 
 _MOVES = (0, 1, 2, 6)  # left, right, forward, nothing
-MOST = {"pixels": 255.0, "gain": 1.0, "slips": 1.0}
-"""The kinds of noise, and the most that each may be."""
+MOST = {"pixels": 255.0, "gain": 1.0, "slips": 1.0}  # the kinds of noise, and the most that each may be
 
 
 class Unsteady(gym.Wrapper[Any, Any, Any, Any]):

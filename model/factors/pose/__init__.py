@@ -1,7 +1,5 @@
 """Kinds of poses: positions on a lattice, as measured, or none."""
 
-from __future__ import annotations
-
 from .base import Ahead, Pose
 from .lattice import Lattice
 from .none import NoPose

@@ -1,7 +1,5 @@
 """What every kind of pose offers."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Sequence
 from typing import Any, Protocol
 

@@ -1,23 +1,21 @@
 """Which way of a place is which way of another, and what follows where that turns out to be otherwise."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..base import Floats, Ints
 from .base import Growing
 from .metric import MetricPose
+from .odometer import direction
 from .relaxing import drift
 from .ways_between import ROUGH, between
 
 LONG = 2.5
 """Standard deviations of the logarithm of lengths above the mean up to which a way that was not walked may be long."""
 
-SURELY = 2.0
-"""Standard deviations of a position by which a way may miss it."""
-
-VAGUE = 35.0
-"""Degrees by which it may miss it at most."""
+SURELY = 2.0  # standard deviations of a position by which a way may miss it
+VAGUE = 35.0  # degrees by which it may miss it at most
+RADIAN = float(np.pi / 180.0)  # a degree
+TOLD = 0.15  # mean lengths of a way by which it may miss what lies as far ahead as it is told to be long
 
 
 class Joining:
@@ -39,27 +37,47 @@ class Joining:
         others = entered[entered != place]
         apart = np.linalg.norm(here[others] - here[place], axis=1)
         leads = others == pose.source.values[place, 0]  # where it was imagined first
-        near = (pose.odometer.log_length(apart) <= LONG) | leads
+        told = pose.lengths.values[place]
+        near = (pose.odometer.log_length(apart) <= LONG) | leads | (apart <= told.max() + TOLD * pose.length)
         others, apart = others[near], apart[near]
         if not len(others):
             return
-        found = between(
-            here[place],
-            pose.bearings.values[place],
-            here[others],
-            pose.bearings.values[others],
-            miss=self._miss(place, others, apart),
-        )
+        miss = self._miss(place, others, apart)
+        found = between(here[place], pose.bearings.values[place], here[others], pose.bearings.values[others], miss=miss)
+        hidden = pose.hidden() if found else None
         taken, met = set[tuple[int, int]](), set[int]()
         for pair in sorted(found, key=lambda pair: ways.beyond(int(others[pair.other]), pair.back) != place):
             mine, its, far = (place, pair.action), (int(others[pair.other]), pair.back), float(apart[pair.other])
             if its[0] in met or not taken.isdisjoint((mine, its)):  # two places share one way at most
                 continue
+            rough = None if miss.any() else pair.rough
+            if told[pair.action] >= 0.0:
+                if abs(told[pair.action] - far) > TOLD * pose.length + float(miss[pair.other]) * RADIAN * far:
+                    continue
+            elif hidden and not ways.walked.values[its] and hidden.likely(far, rough=rough):
+                continue  # each leads to a place between the two that nobody has entered, as was thought
             if self._free(mine, place, far) and self._free(its, place, far):
                 taken |= {mine, its}
                 met.add(its[0])
                 self._link(mine, its[0])
                 self._link(its, place)
+
+    def meet(self, place: int) -> None:
+        """Have ways that are told how long they are lead to what was imagined there behind ways of others."""
+        pose, ways = self._pose, self._model.transitions
+        told = pose.lengths.values[place]
+        if not (told >= 0.0).any():
+            return
+        fresh = np.flatnonzero((self._model.visits.first.values < 0) & (pose.source.values[:, 0] >= 0))
+        where, met = pose.imagined(fresh), set[int]()
+        for action in np.flatnonzero(told >= 0.0).tolist():
+            if len(fresh) and ways.beyond(place, action) is None:
+                at = pose.where.values[place] + told[action] * direction(pose.bearings.values[place, [action]])[0]
+                apart = np.linalg.norm(where - at, axis=1)
+                there = int(fresh[apart.argmin()])
+                if apart.min() <= TOLD * pose.length and there not in met:
+                    met.add(there)
+                    ways.lead(place, action, there)
 
     def _miss(self, place: int, others: Ints, apart: Floats) -> Floats:
         """`[n]` degrees by which ways may miss places since nobody knows for sure where these lie."""

@@ -1,7 +1,5 @@
 """Positions in Z^n: P(p | s) as Dirichlet counts A_p, one-hot in practice, and B_p, p + displacement(a)."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any, cast
@@ -23,8 +21,7 @@ from ..base import Context, Floats, Ints, Support, Table, parts_of
 from .base import Ahead, Pose
 from .odometry import odometry
 
-MANY = 2**25
-"""Entries of B_p that a file may ask for whose map has few places."""
+MANY = 2**25  # entries of B_p that a file may ask for whose map has few places
 
 
 class Lattice(Pose):
@@ -100,11 +97,7 @@ class Lattice(Pose):
         return {"positions": [encode(position) for position in self.positions], **periods}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
-        """Take over positions and counts.
-
-        Raises:
-            CogmapError: a place is not where its position has it.
-        """
+        """Take over positions and counts. Raises CogmapError: a place is not where its position has it."""
         self.periods = tuple(tuple(map(int, row)) for row in state.get("periods", ()))
         positions = [decode(position) for position in state["positions"]]
         self._check(positions, places)

@@ -1,7 +1,5 @@
 """Where places lie, and what was measured of the ways between them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -14,6 +12,7 @@ from ...column import Column
 from ...percept import Percept
 from ..base import Context, Floats, Ints, Successors
 from .base import Growing
+from .hidden import Hidden, evenly
 from .none import NoPose
 from .odometer import Odometer, direction
 from .relaxing import AXES, Measured, around, drift, relaxed, straightened
@@ -21,17 +20,10 @@ from .relaxing import AXES, Measured, around, drift, relaxed, straightened
 UNKNOWN = 1e18
 """Stands for a coordinate that nobody knows."""
 
-RECENT = 4
-"""Visits whose time is kept with a place."""
-
-TOLD = 1e-4
-"""Likelihood of what was measured where a move led elsewhere than it was found to lead."""
-
-CLOSED = 1e-3
-"""Mean lengths of a way by which a loop may be open and positions stay as they are."""
-
-MOST = 400
-"""Places that are relaxed at once, those nearest to where the loop closed."""
+RECENT = 4  # visits whose time is kept with a place
+TOLD = 1e-4  # likelihood of what was measured where a move led elsewhere than it was found to lead
+CLOSED = 1e-3  # mean lengths of a way by which a loop may be open and positions stay as they are
+MOST = 400  # places that are relaxed at once, those nearest to where the loop closed
 
 WALK = 8
 """What is kept of a walk: place, action, where it led, how often it was measured, the mean move, and the heading."""
@@ -43,6 +35,7 @@ class MetricPose(NoPose):
     Attributes:
         where: `[S, 3]` positions of places that were entered; `UNKNOWN` where nobody knows.
         bearings: `[S, K]` degrees of each way as it was seen; -1 where none was.
+        lengths: `[S, K]` how long each way was told to be; -1 where nobody said.
         source: `[S, 2]` the place and the action that a place was imagined behind; -1 of none.
         been: `[S, 4]` the last steps at which the agent was there; -1 of none.
         walks: `[2 S, 7]` the ways that were walked; see `WALK`.
@@ -59,6 +52,7 @@ class MetricPose(NoPose):
         log, size = context.changes, len(context.motions)
         self.where = Column("where", np.float64, width=AXES, fill=UNKNOWN, changes=log)
         self.bearings = Column("bearings_of", np.float64, width=size, fill=-1.0, changes=log)
+        self.lengths = Column("lengths_of", np.float64, width=size, fill=-1.0, changes=log)
         self.source = Column("source", np.int64, width=2, fill=-1, changes=log)
         self.been = Column("been", np.int64, width=RECENT, fill=-1, changes=log)
         self.walks = Column("walks", np.float64, width=WALK, fill=-1.0, changes=log)
@@ -70,18 +64,20 @@ class MetricPose(NoPose):
     @property
     def stores(self) -> tuple[Store, ...]:
         """Where places are, and what is known of their ways."""
-        return self.where, self.bearings, self.source, self.been, self.walks, self.heading, self.odometer.noted
+        places = self.where, self.bearings, self.lengths, self.source, self.been
+        return *places, self.walks, self.heading, self.odometer.noted
 
     def grow(self, places: int) -> None:
         """Nothing is known of new places."""
         super().grow(places)
-        for column in (self.where, self.bearings, self.source, self.been):
+        for column in (self.where, self.bearings, self.lengths, self.source, self.been):
             column.resize(places)
         self.walks.resize(2 * places)
 
     def blank(self, place: int) -> None:
         """Nobody knows where it is."""
-        for column, none in ((self.where, UNKNOWN), (self.bearings, -1.0), (self.source, -1), (self.been, -1)):
+        told = (self.bearings, -1.0), (self.lengths, -1.0)
+        for column, none in ((self.where, UNKNOWN), *told, (self.source, -1), (self.been, -1)):
             fill(column, place, [none] * column.values.shape[1])
         for at in np.flatnonzero((self.walks.values[:, [0, 2]] == place).any(axis=1)).tolist():
             fill(self.walks, at, [-1.0] * WALK)
@@ -110,13 +106,18 @@ class MetricPose(NoPose):
         return tuple(at.tolist()) if at[0] < UNKNOWN else None
 
     def imagined(self, places: Ints) -> Floats:
-        """`[n, 3]` in the direction of the way that they were imagined behind, as far as ways are long on average."""
+        """`[n, 3]` in the direction of the way that they were imagined behind, as far as it is told, or as ways are."""
         source, action = self.source.values[places].T
         bearing = self.bearings.values[source, action]
         found = np.where((source >= 0)[:, None], self.where.values[source], self.where.values[places])
         ahead = (source >= 0) & (bearing >= 0.0) & (found[:, 0] < UNKNOWN)
-        found[ahead] += self.length * direction(bearing[ahead])
+        found[ahead] += self.long(source[ahead], action[ahead])[:, None] * direction(bearing[ahead])
         return found
+
+    def long(self, places: Ints, actions: Ints) -> Floats:
+        """`[n]` how long ways that were not walked are: as they are told, or as ways are long on average."""
+        told = self.lengths.values[places, actions]
+        return np.where(told < 0.0, self.length, told)
 
     def lengths_to(self, place: int, others: Ints) -> Floats:
         """`[n]` straight on, in mean lengths of a way; one where nobody knows."""
@@ -144,6 +145,14 @@ class MetricPose(NoPose):
         return self.odometer.weighed(
             np.stack([place, there], axis=1), rows[:, 4:7], rows[:, 3], self.bearings.values[place, action]
         )
+
+    def hidden(self) -> Hidden:
+        """Whether places lie hidden on ways between others."""
+        walks, some = self.walks.values, evenly(self.context.visits.order.values)
+        lengths = np.linalg.norm(evenly(walks[walks[:, 3] > 0.0])[:, 4:7], axis=1)
+        where = self.where.values[some]
+        apart = np.linalg.norm(where[:, None] - where, axis=2).mean()
+        return Hidden(lengths, self.bearings.values[some], float(apart) / self.length)
 
     def imagine(self, place: int, source: int, action: int) -> None:
         """A place was imagined behind a way: it lies in the direction of its bearing."""

@@ -1,7 +1,5 @@
 """No positions at all: places are known by what is sensed there and by the ways that lead to them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...dirichlet import SparseDirichlet

@@ -1,7 +1,5 @@
 """What is learned of the lengths of ways, and of how far measurements of moves err."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -13,14 +11,12 @@ from ...column import Column
 from ..base import Floats, Ints
 from .relaxing import AXES, Measured
 
-COMPASS = 0.0105
-"""Standard deviation of a bearing, radians: whole degrees, some of them made different from each other."""
+COMPASS = 0.0105  # standard deviation of a bearing, radians: whole degrees, some of them made different from each other
 
 USUAL, COUNTS = 0.002, 4.0
 """Standard deviation of a measurement over its length before anything is known, and how many count for it."""
 
-ERRS = 0.006
-"""Rate from which on measurements are not taken for exact."""
+ERRS = 0.006  # rate from which on measurements are not taken for exact
 
 LEAST = 0.01
 """Mean lengths of a way that a move counts for at least, where it is asked how far its measurement may err."""
@@ -28,14 +24,8 @@ LEAST = 0.01
 WIDE = 0.3
 """Mean lengths of a way by which it matters where a place is entered, on open ground, where no bearings are seen."""
 
-THROUGH = 0.25
-"""Probability that a way goes straight on into another at its end."""
-
-GUESSED = 0.5
-"""Standard deviation of a length that was not measured, over the mean length."""
-
-SHORT = 0.1
-"""Mean lengths of a way that one counts for at least among the logarithms: some places have one position."""
+GUESSED = 0.5  # standard deviation of a length that was not measured, over the mean length
+SHORT = 0.1  # mean lengths of a way that one counts for at least among the logarithms: some places have one position
 
 SPREAD, FEW = 0.5, 4
 """Standard deviation of the logarithm of lengths before any was measured, and how many measurements it counts for."""
@@ -43,17 +33,11 @@ SPREAD, FEW = 0.5, 4
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """A move as it was measured.
+    """A move as it was measured."""
 
-    Attributes:
-        raw: `[3]` as measured.
-        moved: `[3]` how far it most probably led, by what was measured and by the bearing of its way.
-        along: standard deviation of its length.
-    """
-
-    raw: Floats
-    moved: Floats
-    along: float
+    raw: Floats  # `[3]` as measured
+    moved: Floats  # `[3]` how far it most probably led, by what was measured and by the bearing of its way
+    along: float  # standard deviation of its length
 
 
 class Odometer:
@@ -61,13 +45,12 @@ class Odometer:
 
     Attributes:
         noted: ways measured, the sum of the logarithms of their lengths and of the squares of these, their lengths in
-            all, the longest; measurements whose error was seen, and the sum of the squares of these over lengths; the
-            sum of the squares of lengths.
+            all, the longest; measurements whose error was seen, and the sum of the squares of these over lengths.
     """
 
     def __init__(self, changes: Changes) -> None:
         self.noted = Column("odometer", np.float64, changes=changes)
-        self.noted.resize(8)
+        self.noted.resize(7)
 
     @property
     def longest(self) -> float:
@@ -97,18 +80,6 @@ class Odometer:
         mean = logs / max(many, 1.0)
         spread = np.sqrt((max(squares - many * mean * mean, 0.0) + FEW * SPREAD**2) / (many + FEW))
         return (np.log(np.maximum(length, 1e-9)) - mean) / spread
-
-    def two(self, length: float) -> bool:
-        """Whether what is so long and straight is rather two ways than one, with a place between them."""
-        many, logs, _, total, _ = self.noted.values[:5].tolist()
-        if many < FEW:
-            return False
-        mean, square = total / many, float(self.noted.values[7]) / many
-        spread = np.sqrt(2.0 * max(square - mean * mean, 0.0) + 1e-6 * mean * mean)
-        width = self.log_length(np.exp(1.0 + logs / many)) ** -1.0
-        one = -0.5 * self.log_length(length) ** 2 - np.log(max(length, 1e-9) * width)
-        two = -0.5 * ((length - 2.0 * mean) / spread) ** 2 - np.log(spread) + np.log(THROUGH)
-        return bool(two > one and length > mean)
 
     def most(self, along: float) -> float:
         """Standard deviation of where one is after all ways that were measured, and a move of such a one."""
@@ -170,7 +141,6 @@ class Odometer:
         new = many + 1.0, logs + log, squares + log * log, total + length, max(longest, length)
         for at, value in enumerate(new):
             self.noted.set(at, value)
-        self.noted.set(7, float(self.noted.values[7]) + length * length)
 
     def _err(self, many: float, square: float) -> None:
         before, squares = self.noted.values[5:7].tolist()

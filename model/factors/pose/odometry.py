@@ -1,7 +1,5 @@
 """What odometry measured of a move, as evidence of the move that was made."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Positions in the plane, or in space, by what is measured of each move, and relaxed when loops close."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
@@ -19,12 +17,8 @@ from .roaming import Roaming
 LEAST = 1e-6
 """P(ways as sensed) of a new place, at least, where it is taken out again."""
 
-STILL = 1e-3
-"""A move that is shorter than this, in mean lengths of a way, was none."""
-
-
-TWO = 25.0
-"""Doubt of a way that is so long that there is rather a place on it that nobody has seen."""
+STILL = 1e-3  # A move that is shorter than this, in mean lengths of a way, was none
+DOUBTED = 4.0  # nats against a place hidden on a way from which on nobody doubts it
 
 
 class Plane(MetricPose):
@@ -94,7 +88,11 @@ class Plane(MetricPose):
         seen = seen_bearings(model, percept)
         if seen is not None and not (self.bearings.values[place] >= 0.0).any():
             fill(self.bearings, place, seen.tolist())
-            Joining(self, model, step).join(place)
+            if percept.lengths is not None:
+                fill(self.lengths, place, [-1.0 if each is None else each for each in percept.lengths])
+            joining = Joining(self, model, step)
+            joining.join(place)
+            joining.meet(place)
 
     def guessed(self, ways: Transition) -> Sequence[tuple[int, int, float]]:
         """Ways between places that were entered, walked in neither direction; doubted if longer than is usual."""
@@ -109,12 +107,12 @@ class Plane(MetricPose):
         met = np.isin(targets * size + places[:, None], pair[walked & known])  # the way back was walked
         ordered = np.sort(np.where(self.bearings.values[places] >= 0.0, targets, -1 - np.arange(targets.shape[1])))
         twins = {(int(r), int(ordered[r, c])) for r, c in np.argwhere(ordered[:, 1:] == ordered[:, :-1])}
-        found: list[tuple[int, int, float]] = []
+        hidden, found = self.hidden(), list[tuple[int, int, float]]()
         for row, action in np.argwhere((self.bearings.values[places] >= 0.0) & known & ~walked).tolist():
             there = int(targets[row, action])
             if not met[row, action] or (row, there) in twins:  # of two that lead there one leads elsewhere
                 apart = np.linalg.norm(self.where.values[there] - self.where.values[places[row]])
-                doubt = TWO if self.odometer.two(float(apart)) else max(float(self.odometer.log_length(apart)), 0.0)
+                doubt = max(hidden.odds(float(apart), rough=None) + DOUBTED, 0.0)
                 found.append((int(places[row]), action, doubt))
         return found
 

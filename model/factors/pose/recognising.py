@@ -1,7 +1,5 @@
 """Whether a way that was walked has led to a place entered before: by where that lies, and by what is sensed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -15,29 +13,17 @@ from .odometer import Move
 from .relaxing import drift, path_length
 from .ways_between import ROUGH
 
-BLUR = 0.03
-"""Standard deviation of a position that is known for sure, in mean lengths of a way."""
-
-NEAR = 0.1
-"""Mean lengths of a way within which a place lies where moves are measured exactly."""
+BLUR = 0.03  # standard deviation of a position that is known for sure, in mean lengths of a way
+NEAR = 0.1  # mean lengths of a way within which a place lies where moves are measured exactly
 
 WIDE, DRIFTS = 0.6, 0.05
 """The same on open ground, and how far one strays there over the length of a walk: the heading drifts."""
 
-TAILS = 4.0
-"""Degrees of the Student t that positions follow."""
-
-MISREAD = 0.05
-"""Probability that something sensed says nothing of the place."""
-
-ONE_WAY = 3.0
-"""Nats against a place that has no way back."""
-
-FAR = 12.0
-"""Standard deviations beyond which no place is looked for."""
-
-FEW = 8
-"""Places that are looked at where nothing but their position tells them apart."""
+TAILS = 4.0  # degrees of the Student t that positions follow
+MISREAD = 0.05  # probability that something sensed says nothing of the place
+ONE_WAY = 3.0  # nats against a place that has no way back
+FAR = 12.0  # standard deviations beyond which no place is looked for
+FEW = 8  # places that are looked at where nothing but their position tells them apart
 
 
 def recognised(

@@ -1,7 +1,5 @@
 """Open ground: an action leads now here, now there, and only what is measured and sensed tells where."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ...percept import Percept

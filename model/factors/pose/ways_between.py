@@ -1,7 +1,5 @@
 """Which ways of two places lead to each other, by where the places lie and which way their ways point."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -9,11 +7,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-EXACT = 0.6
-"""Degrees within which a way points at a place."""
-
-ROUGH = 1.6
-"""The same of bearings in whole degrees that were made different from each other."""
+EXACT = 0.6  # degrees within which a way points at a place
+ROUGH = 1.6  # the same of bearings in whole degrees that were made different from each other
 
 
 class Between(NamedTuple):
@@ -23,11 +18,13 @@ class Between(NamedTuple):
         other: index of the other place.
         action: the way there.
         back: the way of the other place that leads back.
+        rough: whether they point past each other by more than rounding does, as far as it is known where the two lie.
     """
 
     other: int
     action: int
     back: int
+    rough: bool
 
 
 def between(here: Floats, mine: Floats, where: Floats, theirs: Floats, *, miss: Floats) -> list[Between]:
@@ -47,15 +44,15 @@ def between(here: Floats, mine: Floats, where: Floats, theirs: Floats, *, miss: 
     within = ROUGH + miss
     rows = np.flatnonzero((there.min(axis=1) <= within) & (back.min(axis=1) <= within))
     length = np.linalg.norm(across, axis=1)
-    found: list[tuple[bool, float, Between]] = []
+    found: list[tuple[float, Between]] = []
     for i in rows.tolist():
         for action in np.flatnonzero(there[i] <= within[i]).tolist():
             for its in np.flatnonzero(back[i] <= within[i]).tolist():
                 if miss[i] and abs((mine[action] - theirs[i, its]) % 360.0 - 180.0) > ROUGH:
                     continue  # wherever the two lie, they do not point at each other
                 rough = max(there[i, action], back[i, its]) > EXACT + miss[i]
-                found.append((rough, float(length[i]), Between(i, action, its)))
-    return [pair for _, _, pair in sorted(found)]
+                found.append((float(length[i]), Between(i, action, its, rough)))
+    return [pair for _, pair in sorted(found, key=lambda each: (each[1].rough, each))]
 
 
 def _apart(degrees: Floats, none: NDArray[np.bool_]) -> Floats:

@@ -1,7 +1,5 @@
 """Factor graphs in the files of other programs: BIF, XMLBIF, UAI, GraphML."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from os import PathLike
 from pathlib import Path

@@ -3,8 +3,6 @@
 A `table` lists P(child | parents) with the last parent fastest; a row `(labels of the parents)` lists one column.
 """
 
-from __future__ import annotations
-
 import re
 from bisect import bisect_left
 from collections.abc import Sequence

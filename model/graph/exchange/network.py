@@ -1,7 +1,5 @@
 """What files of Bayesian networks have in common: conditionals one a variable, and errors with the line."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
@@ -14,15 +12,9 @@ from ..factor_graph import FactorGraph
 from ..factors import Factor, FloatArray
 from ..wiring import acyclic
 
-ROUNDED = 1e-3
-"""How far a column of a file may be from 1: files hold rounded numbers."""
-
-
-LARGEST = 10_000_000
-"""Entries of a table that a file may speak of."""
-
-MOST = 32
-"""Variables of a table."""
+ROUNDED = 1e-3  # how far a column of a file may be from 1: files hold rounded numbers
+LARGEST = 10_000_000  # entries of a table that a file may speak of
+MOST = 32  # variables of a table
 
 
 def check_shape(what: str, line: int, shape: Sequence[int]) -> None:

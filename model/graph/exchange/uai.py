@@ -3,8 +3,6 @@
 Tables list the last variable of a scope fastest; in a network of type BAYES that is the child.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Hashable, Mapping
@@ -17,8 +15,7 @@ from ..factor_graph import FactorGraph
 from ..factors import FloatArray
 from .network import LARGEST, MOST, check_shape, conditionals_of, failed
 
-MOST_LABELS = 100_000
-"""Labels of all variables together, besides one for each word of the file."""
+MOST_LABELS = 100_000  # labels of all variables together, besides one for each word of the file
 
 
 def read_uai(text: str, evidence: str | None = None) -> FactorGraph:

@@ -18,8 +18,7 @@ _HEAD = """<?xml version="1.0" encoding="UTF-8"?>
 <NAME>cogmap</NAME>"""
 
 
-DEEPEST = 50
-"""Elements within one another."""
+DEEPEST = 50  # elements within one another
 
 
 @dataclass(slots=True)

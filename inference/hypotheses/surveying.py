@@ -1,0 +1,144 @@
+"""Surveying: the walk so far gone through once more, as if each label were one place, and slips as common as may be.
+
+Where most moves go astray, each explains so little at first that a place which comes by again is taken for one more
+that looks like it; and then looks repeat, so that the next is cheap to explain so too. That the world was slippery all
+along is found only if it is asked of the whole walk: where places lie to each other that every move leads between.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from math import lgamma
+from operator import add
+from operator import sub as minus
+from typing import NamedTuple
+
+from .branches import Alternative, branches
+from .chances import Chances
+from .evidence import log_predictive
+from .extending import begin, extend
+from .hypothesis import EVEN, ROUND, Hypothesis
+from .records import NOWHERE, Position
+from .replaying import History
+from .scheme import Sensed, WayScheme
+
+BEAM = 64
+"""Ways to lay places out that are kept while one place after another is laid down."""
+
+ODD = -8.0
+"""Nats for a move between places that do not lie beside each other."""
+
+Moves = Counter[tuple[int, int, int]]
+"""How often a way that was to be taken led from one label to another."""
+
+
+def surveyed(like: Hypothesis, history: History, *, floor: float) -> Hypothesis | None:
+    """The map of the whole walk in which each label of the first sensor is a place of its own.
+
+    Args:
+        like: a hypothesis beside which it is weighed; its ways have displacements.
+        history: every step from the first to the one now.
+        floor: log P(walk) below which it is nothing.
+
+    Returns:
+        The hypothesis, its weight log P(walk, hypothesis); None where a label was not read, or below the floor.
+    """
+    at, h, start = _laid_out(like.scheme, history), like.emptied(), None
+    for time, sensed in history:
+        label = sensed.sights[0]
+        if not isinstance(label, int):
+            return None
+        if start is None:
+            start, h.weight = at[label], log_predictive(h, sensed, None, None, NOWHERE)
+            begin(h, sensed, time)
+        else:
+            there = tuple(map(minus, at[label], start))
+            branch = max(_followed(h, sensed, there), key=lambda one: one.weight, default=None)
+            if branch is None or branch.weight < floor:
+                return None
+            extend(h, branch, sensed, time)
+        h.chances = Chances(h.counts, like.chances.labels, size=h.size)
+    return h
+
+
+def _followed(h: Hypothesis, sensed: Sensed, there: Position) -> Iterator[Alternative]:
+    """The branches that lead to a place, or to a new one there."""
+    known = h.at.get((0, there))
+    for branch in branches(h, sensed, drop=100.0):
+        if branch.crowd is None and (
+            branch.to == known
+            if known is not None
+            else branch.charted and h.beyond(h.places[h.here], branch.way) == (0, there)
+        ):
+            yield branch
+
+
+class _Layout(NamedTuple):
+    """Where labels lie, how often each way led along each, and log P(moves) of that."""
+
+    at: Mapping[int, Position]
+    led: Mapping[tuple[int, int], int]
+    score: float
+
+
+def _laid_out(scheme: WayScheme, history: History) -> Mapping[int, Position]:
+    """Where each label lies, one after another, that first which most moves join to those that are laid down."""
+    moves, beside = Moves(), Counter[tuple[int, int]]()
+    before: int | None = None
+    for _, sensed in history:
+        label = sensed.sights[0]
+        if isinstance(label, int) and before is not None and sensed.action is not None and not sensed.told:
+            moves[before, sensed.action, label] += label != before
+            beside[before, label] += 1
+            beside[label, before] += 1
+        before = label if isinstance(label, int) else None
+    left = {label for label, _ in beside} or {before or 0}
+    first = max(left, key=lambda label: sum(n for (one, _), n in beside.items() if one == label))
+    beam, left = [_Layout({first: scheme.origin}, {}, 0.0)], left - {first}
+    while left:
+        placed = beam[0].at
+        label = max(sorted(left), key=lambda label: sum(beside[label, other] for other in placed))
+        beam = sorted(
+            (more for layout in beam for more in _with(scheme, moves, layout, label)), key=lambda one: -one.score
+        )[:BEAM]
+        left = left - {label}
+    return beam[0].at
+
+
+def _with(scheme: WayScheme, moves: Moves, layout: _Layout, label: int) -> Iterator[_Layout]:
+    """The layout with one label more, in each place beside those from or to which moves lead."""
+    assert scheme.displacements is not None
+    near = {other: at for other, at in layout.at.items() if any(_between(scheme, moves, label, other))}
+    taken = set(layout.at.values())
+    ahead = {tuple(map(add, at, by)) for at in (near or layout.at).values() for by in scheme.displacements}
+    for there in sorted(ahead - taken):
+        led = dict(layout.led)
+        for other, at in near.items():
+            for one, to, source, target in ((other, label, at, there), (label, other, there, at)):
+                by = tuple(map(minus, target, source))
+                taken_way = scheme.displacements.index(by) if by in scheme.displacements else NOWHERE
+                for given in range(scheme.count):
+                    if times := moves[one, given, to]:
+                        led[given, taken_way] = led.get((given, taken_way), 0) + times
+        yield _Layout({**layout.at, label: there}, led, _evidence(scheme, led))
+
+
+def _between(scheme: WayScheme, moves: Moves, one: int, other: int) -> Iterator[int]:
+    for given in range(scheme.count):
+        yield moves[one, given, other]
+        yield moves[other, given, one]
+
+
+def _evidence(scheme: WayScheme, led: Mapping[tuple[int, int], int]) -> float:
+    """log P(ways taken | ways given), the table integrated out."""
+    score, totals = 0.0, dict[int, int]()
+    for (given, taken), times in led.items():
+        if taken == NOWHERE:
+            score += ODD * times
+        else:
+            prior = 1.0 if taken == given else ROUND if scheme.inverse and scheme.inverse[given] == taken else EVEN
+            score += lgamma(prior + times) - lgamma(prior)
+            totals[given] = totals.get(given, 0) + times
+    whole = 1.0 + EVEN * (scheme.count - 1) + ROUND
+    return score - sum(lgamma(whole + times) - lgamma(whole) for times in totals.values())
