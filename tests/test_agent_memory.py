@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.inference import TrackerOptions
-from cogmap.inference.hypotheses.extending import SHOWN
 from cogmap.inference.hypotheses.tracker import DECIDED
-from cogmap.model import CogmapError, GrowthEvent, growth_between
+from cogmap.model import SHOWN, CogmapError, GrowthEvent, growth_between
 from cogmap.model.growth_log import GrowthLog
 from cogmap.model.information import KnownInformation, dirichlet_information
 from cogmap.worlds import load_world

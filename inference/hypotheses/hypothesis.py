@@ -212,8 +212,12 @@ class Hypothesis:
 
     def remove(self, number: int) -> None:
         """Take a place away."""
+        self._count(self.places[number], -1.0)
+        self.forget(number)
+
+    def forget(self, number: int) -> None:
+        """Take a place away; what it shares stays counted."""
         place = self.places[number]
-        self._count(place, -1.0)
         self.digest -= digest(place)
         for sensor in range(self.scheme.sensors):
             self._relabel(sensor, number, place.label(sensor), -1)
@@ -237,7 +241,10 @@ class Hypothesis:
     def _relabel(self, sensor: int, number: int, was: int, now: int) -> None:
         if was >= 0:
             rest = tuple(k for k in self.shown[sensor, was] if k != number)
-            self.shown[sensor, was] = rest
+            if rest:
+                self.shown[sensor, was] = rest
+            else:
+                del self.shown[sensor, was]
             self.kinds[sensor] -= not rest
         if now >= 0:
             others = self.shown.get((sensor, now)) or ()
