@@ -14,7 +14,7 @@ from ..planning import Plan
 
 @dataclass(frozen=True, slots=True)
 class Followed:
-    """One step of a walk that was followed."""
+    """One step of a recorded walk that the agent followed."""
 
     step: int  # the time step, from 0
     belief: Belief  # where the agent believes to be
@@ -50,7 +50,7 @@ class Perceiver(Protocol):
 
 
 def follow(agent: Perceiver, walk: Iterable[Mapping[str, Any]]) -> Iterator[Followed]:
-    """Take the agent along a recorded walk, and say at each step how probable it holds each action.
+    """Lead the agent along a recorded walk; at each step give the probability that it assigns to each action.
 
     The agent learns as if it walked itself; what it would have done is never carried out.
 

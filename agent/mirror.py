@@ -145,11 +145,12 @@ class Mirror:
     def doors(self, h: Hypothesis, number: int) -> Doors:
         """For each action whether its way is believed open, or how much so; None where nothing is known of it."""
         map_, record = self._map, h.places[number]
-        doors: list[bool | float | None] = [True] * len(map_.motions)
-        for way, action in enumerate(self._actions):
+        doors: list[bool | float | None] = [False] * len(map_.motions)  # ways that nobody thinks of are shut
+        doors[map_.motions.stay] = True
+        for way in h.awake:
             known = record.ways[way]
             heard = known.net or known.walks or h.neighbour(record, way) != NOWHERE
-            doors[action] = _sure(open_probability(h, number, way)) if heard else None
+            doors[self._actions[way]] = _sure(open_probability(h, number, way)) if heard else None
         return tuple(doors)
 
     def one_way(self, h: Hypothesis, number: int) -> tuple[int, ...]:
@@ -162,8 +163,8 @@ class Mirror:
             return ()
         come = {(inverse[by], source) for source, by in record.into}
         found: list[int] = []
-        for way, known in enumerate(record.ways):
-            other = h.neighbour(record, way)
+        for way in h.awake:
+            known, other = record.ways[way], h.neighbour(record, way)
             if other == NOWHERE:
                 continue
             back = h.places[other].ways[inverse[way]]
@@ -242,8 +243,8 @@ class Mirror:
     def _leads_there(self, h: Hypothesis, number: int, place: int | None) -> bool:
         """Whether the ways of a place lead to where the pose says, and none that is shut to a place only imagined."""
         record, map_ = h.places[number], self._map
-        for way, action in enumerate(self._actions):
-            to = record.ways[way].to
+        for way in h.awake:
+            action, to = self._actions[way], record.ways[way].to
             if to != NOWHERE and h.scheme.displacements is not None:
                 if h.beyond(record, way) != (h.places[to].frame, h.places[to].position):
                     return False
@@ -330,10 +331,10 @@ class Mirror:
         """Name what lies beyond the ways of a place: what poses say, but for the ways that lead elsewhere."""
         map_, place, record = self._map, self.places[number], h.places[number]
         leads = dict(map_.pose.neighbours(place))
-        for way, action in enumerate(self._actions):
+        for way in h.awake:
             to = h.neighbour(record, way)
             if to != NOWHERE and to in self.places:
-                leads[action] = self.places[to]
+                leads[self._actions[way]] = self.places[to]
         for action, neighbour in leads.items():
             if map_.beyond(place, action) != neighbour:
                 map_.transitions.lead(place, action, neighbour)
@@ -350,8 +351,8 @@ class Mirror:
 
     def _walk(self, h: Hypothesis, number: int) -> None:
         map_, place, one_way = self._map, self.places[number], self.one_way(h, number)
-        for way, action in enumerate(self._actions):
-            known = h.places[number].ways[way]
+        for way in h.awake:
+            action, known = self._actions[way], h.places[number].ways[way]
             if known.walks and known.to != NOWHERE and open_probability(h, number, way) > 0.5:
                 for _ in range(min(known.walks, WALKS)):
                     map_.transitions.learn(place, action, self.places[known.to], 1.0, back=action not in one_way)

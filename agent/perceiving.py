@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Callable, Mapping
-from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ import numpy as np
 from ..model import OUTCOMES, UNSEEN, CogmapError, GenerativeModel, Motions, Outcome, Percept, is_number
 
 _MOST = sys.float_info.max
+_FARTHEST = 1e100  # numbers of a displacement are below, or their squares are none
 
 
 def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str, Any]:
@@ -23,7 +23,8 @@ def checked(observation: Mapping[str, Any], model: GenerativeModel) -> dict[str,
     """
     if not isinstance(observation, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance]
         kind = type(observation).__name__
-        raise CogmapError(f"observation: is a {kind}; give a mapping with keys {_keys(model)}")
+        hint = " (of what env.reset() and env.step() return, the first alone)" if isinstance(observation, tuple) else ""
+        raise CogmapError(f"observation: is a {kind}; give a mapping with keys {_keys(model)}{hint}")
     given = dict(observation)
     if "ways" in given and "ways" not in model.sensors and "open" in model.sensors:
         if "open" in given:
@@ -116,10 +117,11 @@ def _moved(moved: Any, model: GenerativeModel) -> bool:
 def _displacement(measured: Any, model: GenerativeModel) -> tuple[float, ...]:
     sizes = (2, 3) if model.pose.settles else (model.pose.dimensions,)
     try:
-        vector = tuple(float(each) for each in measured if each is not np.ma.masked)
+        plain = (each for each in measured if each is not np.ma.masked and not isinstance(each, str | bytes | bool))
+        vector = tuple(map(float, plain))
     except (TypeError, ValueError):
         vector = ()
-    if len(vector) not in sizes or not all(map(isfinite, vector)):
+    if len(vector) not in sizes or not all(abs(each) < _FARTHEST for each in vector):
         given = " or ".join(map(str, sizes))
         raise CogmapError(f"observation: 'displacement' is {_short(measured)}; give {given} finite numbers")
     return vector

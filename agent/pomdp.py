@@ -24,7 +24,7 @@ NEARLY = 1e-6  # how far a column may be from adding up to one
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pomdp:
-    """A partially observable Markov decision process of one state, with any number of observations.
+    """A partially observable Markov decision process with one state factor and any number of observations.
 
     Raises:
         CogmapError: shapes that do not fit, numbers that are no probabilities, or names that repeat.

@@ -1,7 +1,5 @@
 """Which place is which: hypotheses about the map, and the map as the most probable one has it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from math import exp
@@ -36,14 +34,9 @@ from .structure import OpenQuestion
 
 Arrays = dict[str, NDArray[Any]]
 
-HARDLY = 1.5
-"""Ways that were misread so far, as is expected, up to which the last look at one is believed."""
-
-DECIDED = 0.8
-"""Probability from which on another hypothesis than the one that is followed changes the map."""
-
-SURER = 0.98
-"""Share of what hypotheses hold of a place from which on the filter need not be overruled."""
+HARDLY = 1.5  # Ways that were misread so far, as is expected, up to which the last look at one is believed
+DECIDED = 0.8  # Probability from which on another hypothesis than the one that is followed changes the map
+SURER = 0.98  # Share of what hypotheses hold of a place from which on the filter need not be overruled
 
 SLIPPERY = 0.05
 """Share of actions that go astray from which on the map says where they lead by what else may be carried out."""
@@ -270,11 +263,7 @@ class Recognition:
         return {"tracker": tracker[0], **own}
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
-        """Take over what `state` gave.
-
-        Raises:
-            CogmapError: it is damaged, or of another map.
-        """
+        """Take over what `state` gave. Raises CogmapError: it is damaged, or of another map."""
         prefix = "tracker."
         own = {name.removeprefix(prefix): arrays[name] for name in arrays if name.startswith(prefix)}
         self.tracker = Tracker.restored(self.sensing.scheme, self.tracker.options, (state["tracker"], own))

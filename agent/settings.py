@@ -12,7 +12,7 @@ from ..planning import MAX_LOOK_AHEAD
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
-    """How an agent models, infers and plans, in numbers; its parts are objects that it is given besides.
+    """The numerical settings of an agent: model, inference and planning. Its parts are passed to the agent separately.
 
     "Paper" below is de Tinguy, Verbelen and Dhoedt, "Learning dynamic cognitive map with autonomous navigation".
 

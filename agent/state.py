@@ -15,7 +15,7 @@ from ..planning import Plan
 
 @dataclass(frozen=True, slots=True)
 class GivenPreferences:
-    """Log preferences over all others, in nats (before `goal_weight`); none explores."""
+    """Log preferences relative to all other labels, in nats, before `goal_weight`. Empty: the agent only explores."""
 
     sights: Mapping[Hashable, float] = field(default_factory=dict[Hashable, float])  # by label
     places: Mapping[int, float] = field(default_factory=dict[int, float])  # by number of the place in the map

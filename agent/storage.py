@@ -80,7 +80,7 @@ def damage(path: str | PathLike[str]) -> Generator[None]:
 
 
 def read_header(path: str | PathLike[str]) -> dict[str, Any]:
-    """What the file says of itself besides its arrays: `schema`, `version` of cogmap (if it says so), `settings`, ...
+    """The header of a saved file, without its arrays: `schema`, `version` of cogmap (if there), `settings`, ...
 
     Raises:
         CogmapError: no such file, no saved agent, truncated, or of another schema.

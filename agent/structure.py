@@ -52,6 +52,8 @@ class OpenQuestion:
         self._ahead, self._expected = dict[tuple[int, int, int], int | None](), dict[tuple[int, int], Hashable]()
         self.weights: Sequence[float] = [sqrt(weight) if tries else weight for weight, _, _ in kept]
         self.here: Sequence[Hashable] = [h.here for _, h, _ in kept]
+        awake = {way for _, h, _ in kept for way in h.awake}
+        self.moves: Sequence[int] = [action for action, way in ways.items() if way in awake]
 
     def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
         """The place that an action leads to; the same where its way is believed shut, None for one never seen."""

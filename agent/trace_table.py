@@ -10,7 +10,7 @@ COLUMNS = ("place", "certainty", "doubt", "moved", "free energy", "complexity", 
 
 
 def trace_table(agent: Agent, records: Sequence[StepRecord] | None = None) -> LabelledTable:
-    """A row a step: what was sensed, where it believed to be, F and G in their parts, and what it did.
+    """A table with one row per step: readings, believed place, F and G with their parts, action.
 
     `to_pandas()` makes a frame of it.
 

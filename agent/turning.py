@@ -20,7 +20,7 @@ _STRAY = 1e-3  # share of the belief that is spread over everything, each step o
 
 
 class TurningAgent(Agent):
-    """An agent that may be moved and turned without a word, as a body that has no compass is.
+    """An agent that may be silently moved and turned, for bodies without a compass.
 
     While everything fits it is an `Agent`. Where what it senses fits another known place, or the same places in a frame
     turned by quarters, far better than the place where it should be, its map is left alone: a filter over (place, turn)

@@ -61,17 +61,16 @@ class Wired:
     ) -> None:
         """Put the parts together; the map is empty yet."""
         sensors = None if sensors is None else list(sensors)
-        given = [("a sensor", sensor, Sensor) for sensor in sensors or ()]
-        parts: list[tuple[str, object, type]] = [
-            *given,
-            ("pose", pose, Pose),
-            ("growth", growth, Growth),
-            ("planner", planner, Planner),
-            ("settings", settings, Settings),
+        parts: list[tuple[str, object, type, str]] = [
+            *[("a sensor", sensor, Sensor, "sensors=[Sight(), Ways()]") for sensor in sensors or ()],
+            ("pose", pose, Pose, "pose=NoPose()"),
+            ("growth", growth, Growth, "growth=PredictedGrowth()"),
+            ("planner", planner, Planner, "planner=Planner(policies=MapGuided())"),
+            ("settings", settings, Settings, "settings=Settings(look_ahead=6)"),
         ]
-        for name, part, kind in parts:
+        for name, part, kind, example in parts:
             if part is not None and not isinstance(part, kind):
-                raise CogmapError(f"agent: {name} is {part!r}; give an object, such as growth=PredictedGrowth()")
+                raise CogmapError(f"agent: {name} is {part!r}; give an object, such as {example}")
         self._settings = settings
         self.growth = growth or PredictedGrowth()
         self.planner = planner or Planner()

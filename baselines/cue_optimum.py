@@ -7,7 +7,7 @@ from ..worlds import CueMaze, best_cue_action
 
 
 class CueOptimum:
-    """The Bayes-optimal agent of `CueMaze`: exact, by what brings most rewards in the moves that are left.
+    """The Bayes-optimal agent of `CueMaze`: it maximises the expected reward of the remaining moves, exactly.
 
     It is told how often the cue is right and how many moves a trial has.
     """

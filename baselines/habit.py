@@ -10,7 +10,7 @@ from .reckoning import Place, Reckoner
 
 
 class HabitAgent:
-    """Learns by reward which action pays in which place, and looks nothing up but that.
+    """Tabular Q-learning: it learns from reward which action pays in which place, and has no map.
 
     Watkins' Q-learning (1989): choosing to stay where the goal is seen pays 1, and all else nothing. Where it is it
     knows by dead reckoning from the start of the run, and it is told when a run starts: more than an agent with a map

@@ -6,7 +6,7 @@ from .explorer import Explorer
 
 
 class RandomAgent(Explorer):
-    """Takes any open way but `stay`, uniformly; stays where there is none, or where it sees what it prefers."""
+    """Takes any open way but `stay`, uniformly. It stays where no way is open, or where it sees what it prefers."""
 
     def _choose(self, is_open: Sequence[bool]) -> int:
         stay = self._reckoner.stay

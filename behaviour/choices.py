@@ -46,7 +46,7 @@ class Choices:
 
 @dataclass(frozen=True, slots=True)
 class Fork:
-    """What one choice is made of, before it is made."""
+    """The information about one choice before it is made."""
 
     step: int
     ways: tuple[Way, ...]
@@ -55,7 +55,7 @@ class Fork:
 
 
 class Compass:
-    """Follows a walk place by place, and tells how ways lie to the last move.
+    """Follows a walk place by place, and gives the direction of each way relative to the last move.
 
     Args:
         ground: of the world.

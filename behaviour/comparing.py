@@ -20,7 +20,7 @@ _SURE = 1.96  # standard errors of a 95 % interval
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class How:
-    """How models are fitted and compared."""
+    """Options of fitting and comparing models."""
 
     level: str = LEVELS[0]  # whether individuals are fitted around the group, alone, or as the group; one of `LEVELS`
     folds: int = FOLDS  # of the cross-validation
@@ -29,12 +29,12 @@ class How:
 
 
 def tasks_of(models: Sequence[ChoiceModel], how: How) -> list[tuple[str, int]]:
-    """What is to be done: each model fitted to all choices, and to all but each fold."""
+    """The tasks of a comparison: each model fitted to all choices, and to all but each fold."""
     return [(model.name, fold) for model in models for fold in (ALL, *range(how.folds))]
 
 
 def run_task(task: tuple[str, int], source: Source, how: How, model: ChoiceModel | None = None) -> Row:
-    """One task, as plain JSON values.
+    """Carry out one task; the result is plain JSON values.
 
     Args:
         task: the name of a model, and a fold or `ALL`.
@@ -67,7 +67,7 @@ def run_task(task: tuple[str, int], source: Source, how: How, model: ChoiceModel
 
 
 def result_of(rows: Iterable[Row], source: Source, models: Sequence[ChoiceModel], how: How) -> dict[str, Any]:
-    """What the rows of all tasks come to, as plain JSON values: `models`, `individuals` and `preferred`."""
+    """The results of all tasks as plain JSON values: `models`, `individuals` and `preferred`."""
     whole: dict[str, Row] = {}
     held: dict[str, list[dict[int, list[float]]]] = {}
     for row in rows:
@@ -107,7 +107,7 @@ def result_of(rows: Iterable[Row], source: Source, models: Sequence[ChoiceModel]
 
 
 def preferred(held: Mapping[str, Sequence[Sequence[float]]], models: Sequence[ChoiceModel]) -> str | None:
-    """The model that wins by held-out likelihood: the simplest of those that are no worse than the best but by chance.
+    """The preferred model by held-out likelihood: the simplest one that is not significantly worse than the best.
 
     Models that contain the right one predict as well as that one, give or take chance; so the difference has to be more
     than one time in twenty would be by chance, by its standard error over bouts, before more parameters are believed.

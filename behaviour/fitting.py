@@ -17,7 +17,7 @@ _OPTIONS = {"maxiter": 300, "maxcor": 30, "ftol": 1e-9, "gtol": 1e-6}
 
 @dataclass(frozen=True)
 class Fit:
-    """What a fit came to."""
+    """The result of a fit."""
 
     model: str  # the name of the model
     parameters: dict[str, float]  # by name
@@ -31,7 +31,7 @@ class Fit:
 
 @dataclass(frozen=True, slots=True)
 class Around:
-    """A normal prior around the parameters of the group: what makes a fit hierarchical."""
+    """A normal prior around the group's parameters, for hierarchical fits."""
 
     mean: Floats
     spread: Floats

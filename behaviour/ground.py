@@ -31,7 +31,7 @@ class Way:
 
 @dataclass(frozen=True)
 class Ground:
-    """A world as a walk crosses it."""
+    """A world as recorded walks cross it."""
 
     name: str  # of the world
     places: tuple[Any, ...]  # what its places are called; elsewhere they are numbers

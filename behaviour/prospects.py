@@ -50,7 +50,7 @@ class Prospects:
 
 @dataclass(frozen=True, eq=False)
 class Followings:
-    """How it went along a recorded walk."""
+    """The results of following a recorded walk."""
 
     prospects: Prospects  # of its choices
     astray: int  # steps at which the agent believed to be elsewhere than it was
@@ -95,7 +95,7 @@ def follow_route(
 
 
 class Foresight:
-    """Leads an agent along a walk, step by step, and takes down what it expects beyond each way.
+    """Leads an agent along a walk step by step, and records what it expects beyond each way.
 
     It plans only where it is asked, so this is quicker than `cogmap.agent.follow`, and comes to the same.
 

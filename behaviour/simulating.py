@@ -22,7 +22,7 @@ def simulate(
     name: str = "simulated",
     look_ahead: int = LOOK_AHEAD,
 ) -> Route:
-    """A walk drawn from a model; it begins at home, or else at the first place, and each return there ends a bout.
+    """Draw a walk from a model. It begins at home, or else at the first place; each return there ends a bout.
 
     Where there are fewer than three ways it goes on, and turns back at dead ends only.
 

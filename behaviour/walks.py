@@ -2,7 +2,7 @@
 
 import csv
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
@@ -126,11 +126,7 @@ def _from_csv(file: Path) -> list[Walk]:
         bouts.setdefault(individual, {}).setdefault(bout, []).append(node)
     if not bouts:
         raise CogmapError(f"{file} has no walks; give a line for each step")
-    return [Walk(name, _tuples(of.values()), {}, str(file)) for name, of in bouts.items()]
-
-
-def _tuples(bouts: Iterable[list[str]]) -> tuple[tuple[Any, ...], ...]:
-    return tuple(tuple(bout) for bout in bouts)
+    return [Walk(name, tuple(map(tuple, of.values())), {}, str(file)) for name, of in bouts.items()]
 
 
 def _from_trace(file: Path) -> Walk:

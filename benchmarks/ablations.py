@@ -20,7 +20,7 @@ from cogmap.inference.message import Belief, FilterOptions
 from cogmap.model import TABLE_RATES, TEXT_RATES, Priors
 from cogmap.planning import CHOICES
 from cogmap.worlds import MAZES, Maze, spiral
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 
 @contextmanager
@@ -90,23 +90,18 @@ def measured(variant: Variant, maze: Maze, runs: int, max_steps: int) -> dict[st
 
 
 def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("ablations", nargs="*", metavar="NAME", help=f"all unless given: {', '.join(ABLATIONS)}")
+    parser = arguments(__doc__, ablations=ABLATIONS)
     parser.add_argument("--mazes", nargs="+", type=maze_named, default=[MAZES["4x4"], MAZES["4x4_alias"]])
     parser.add_argument("--runs", type=int, default=10)
     parser.add_argument("--max-steps", type=int, default=300)
-    parser.add_argument("--json", type=json_path)
-    asked = parser.parse_args(given)
-    if unknown := set(asked.ablations) - set(ABLATIONS):
-        parser.error(f"no ablation {', '.join(sorted(unknown))}; choose from {', '.join(ABLATIONS)}")
-    return asked
+    return parser.parse_args(given)
 
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
     asked = _arguments(given)
     rows: list[dict[str, Any]] = []
-    for ablation in asked.ablations or ABLATIONS:
+    for ablation in asked.ablations:
         for maze in asked.mazes:
             print(f"{ablation}, {maze.name}, {asked.runs} runs")
             for variant in ABLATIONS[ablation]:

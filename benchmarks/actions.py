@@ -12,7 +12,6 @@ step.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Sequence
 from statistics import mean
 from time import process_time
@@ -24,7 +23,7 @@ from cogmap.experiments.judging import Trail
 from cogmap.experiments.running import Moment
 from cogmap.model import Motions
 from cogmap.worlds import GRID, MAZES, Maze, MazeEnv, hall, labyrinth
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 from percepts import complete, seeds
 
 WORLDS: dict[str, Callable[[int], Maze]] = {
@@ -64,18 +63,14 @@ def explored(maze: Maze, actions: int, seed: int, *, most: int, on: int) -> dict
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("worlds", nargs="*", metavar="WORLD", help=f"some of {', '.join(WORLDS)}")
+    parser = arguments(__doc__, worlds=WORLDS)
     parser.add_argument("--actions", type=int, nargs="+", default=[0, 12, 40, 100])
     parser.add_argument("--seeds", type=seeds, default=range(20))
     parser.add_argument("--steps", type=positive, default=6, help="a room, at most")
     parser.add_argument("--on", type=positive, default=10)
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
-    if unknown := [world for world in asked.worlds if world not in WORLDS]:
-        parser.error(f"there is no world {unknown[0]!r}; worlds are {', '.join(WORLDS)}")
     found: list[dict[str, Any]] = []
-    for name in asked.worlds or WORLDS:
+    for name in asked.worlds:
         for actions in asked.actions:
             mazes = [(seed, WORLDS[name](seed)) for seed in asked.seeds]
             options: dict[str, Any] = {"on": asked.on}

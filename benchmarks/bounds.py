@@ -30,7 +30,7 @@ from typing import Any
 import numpy as np
 from cogmap.agent import Agent
 from cogmap.worlds import load_world
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 
 Row = dict[str, Any]
 MEASURED = """
@@ -183,16 +183,12 @@ PARTS = {"bombs": bombs, "kills": kills, "rooms": rooms}
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"some of {', '.join(PARTS)}")
+    parser = arguments(__doc__, parts=PARTS)
     parser.add_argument("--times", type=positive, default=25, help="that each command is killed")
     parser.add_argument("--rooms", type=positive, default=1_000_000)
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
-    if unknown := [part for part in asked.parts if part not in PARTS]:
-        parser.error(f"there is no part {unknown[0]!r}; parts are {', '.join(PARTS)}")
     found: dict[str, list[Row]] = {}
-    for part in asked.parts or PARTS:
+    for part in asked.parts:
         with tempfile.TemporaryDirectory() as folder:
             found[part] = PARTS[part](Path(folder), asked)
         for row in found[part]:

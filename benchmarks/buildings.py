@@ -29,7 +29,7 @@ import numpy as np
 from cogmap.experiments import Moment, Parts, walk
 from cogmap.experiments.exploring import frontier_search
 from cogmap.worlds import NoisyWorld, geometric, hall, is_graph_file, labyrinth, load_world, office
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 
 DRAWS = 20
 FAMILIES: dict[str, Callable[[int], Any]] = {
@@ -101,7 +101,7 @@ def _mean(values: list[Any]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("folder", nargs="?", type=Path, help="of graph files")
     parser.add_argument("--worlds", nargs="+", metavar="NAME")
     parser.add_argument(
@@ -114,7 +114,6 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--most", type=positive, help="steps; 50 a place and 50 unless given")
     parser.add_argument("--jobs", type=positive, default=1)
-    parser.add_argument("--json", type=json_path, metavar="FILE")
     args = parser.parse_args()
     files = [] if args.folder is None else sorted(path.stem for path in args.folder.iterdir() if is_graph_file(path))
     names = args.worlds or [name for name in files if name != "intel"]

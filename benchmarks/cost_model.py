@@ -12,7 +12,6 @@ many calls of functions a step makes.
 
 from __future__ import annotations
 
-import argparse
 import cProfile
 import pstats
 import time
@@ -28,7 +27,7 @@ from cogmap.planning import planner as planner_module
 from cogmap.planning.prefixes import Prefixes, prefixes_of
 from cogmap.worlds import MazeEnv, labyrinth, load_world
 from known import known_agent
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
@@ -237,10 +236,9 @@ def arithmetic(runs: int) -> Row:
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("--runs", type=positive, default=5)
     parser.add_argument("--times", type=positive, default=3, help="that each walk of the model is made")
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     result: Row = {"parts": parts(asked.runs), "arithmetic": arithmetic(asked.runs)}
     for row in result["parts"]:

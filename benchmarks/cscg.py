@@ -9,7 +9,6 @@ Run i has seed i, and gives up after 600 steps. `--mazes` and `--runs` choose le
 
 from __future__ import annotations
 
-import argparse
 import time
 from collections.abc import Mapping
 from statistics import mean, median
@@ -19,7 +18,7 @@ import numpy as np
 from cogmap.baselines import CscgAgent, CscgSettings
 from cogmap.experiments import Parts, explore_many, workers
 from cogmap.worlds import GRID, MAZES, MazeEnv
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 Row = dict[str, Any]
 MOST = 600
@@ -106,12 +105,11 @@ def _tried(maze: str, actions: int, seed: int) -> int:
 
 def main() -> None:
     """Print a line for each measurement."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("what", choices=("readings", "speed", "floor"))
     parser.add_argument("--mazes", nargs="+", choices=list(MAZES), default=[name for name in MAZES if name != "tolman"])
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args()
     if asked.what == "readings":
         rows = readings(asked.mazes, asked.runs, asked.jobs)

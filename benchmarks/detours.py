@@ -21,7 +21,7 @@ import numpy as np
 from cogmap.agent import Settings
 from cogmap.worlds import MAZES, Maze, MazeEnv, Position, hall, labyrinth, office, random_maze
 from known import known_agent
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 Doors = dict[Position, tuple[Position, ...]]
 OWN = {
@@ -109,7 +109,7 @@ def measured(name: str, asked: argparse.Namespace, look_ahead: int) -> dict[str,
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("--worlds", nargs="+", default=[*MAZES, *OWN], choices=[*MAZES, *OWN])
     parser.add_argument("--look-ahead", type=int, nargs="+", default=list(range(2, 16)))
     parser.add_argument("--ways", type=int, default=4, help="starts and goals of each world")
@@ -119,7 +119,6 @@ def main(given: Sequence[str] | None = None) -> None:
     )
     parser.add_argument("--weight", type=float, default=8.0, help="log preference of the goal, in nats")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     rows: list[dict[str, Any]] = []
     for name in asked.worlds:

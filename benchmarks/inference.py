@@ -22,7 +22,7 @@ import numpy as np
 from cogmap.inference import infer
 from cogmap.model import CognitiveMap, FactorGraph, Motions, Percept, Slice, take_slice, window_graph
 from cogmap.worlds import GRID
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 ENGINES = ("numpy", "gtsam")
 ROWS = 4
@@ -108,12 +108,11 @@ def measured(support: int, steps: int, engines: Sequence[str], runs: int) -> dic
 
 
 def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("--windows", type=int, nargs="+", default=[1, 5, 10, 20])
     parser.add_argument("--supports", type=int, nargs="+", default=[2, 5, 10, 20, 40, 60])
     parser.add_argument("--engines", nargs="+", default=list(ENGINES), choices=ENGINES)
     parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--json", type=json_path)
     parser.add_argument("--networks", nargs=argparse.REMAINDER, help="a folder of networks, and options of networks.py")
     return parser.parse_args(given)
 

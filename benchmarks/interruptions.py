@@ -13,7 +13,6 @@ alone.
 
 from __future__ import annotations
 
-import argparse
 import copy
 import random
 import sys
@@ -28,7 +27,7 @@ from cogmap.agent import Agent, Settings, TurningAgent
 from cogmap.model import Bearings, Features, NoPose, Plane, Sight, Ways
 from cogmap.planning import Planner
 from cogmap.worlds import GraphWorld, ListedWays, MazeEnv, NoisyWorld, hall, load_world
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 
 from cogmap import UNSEEN
 
@@ -174,17 +173,13 @@ def _content(agent: Agent) -> Any:
 
 def main(given: Sequence[str] | None = None) -> int:
     """Break off, compare and print; 1 where an agent was left torn."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("forms", nargs="*", metavar="FORM", help=f"some of {', '.join(map(repr, FORMS))}")
+    parser = arguments(__doc__, forms=FORMS)
     parser.add_argument("--trials", type=positive, default=50, help="of each form")
     parser.add_argument("--on", type=positive, default=2, help="steps that are walked on afterwards")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
-    if unknown := [form for form in asked.forms if form not in FORMS]:
-        parser.error(f"there is no form {unknown[0]!r}; forms are {', '.join(map(repr, FORMS))}")
     rows: list[dict[str, Any]] = []
-    for form in asked.forms or FORMS:
+    for form in asked.forms:
         rng, begun = random.Random(f"{form} {asked.seed}"), time.process_time()
         found: dict[str, int] = {}
         walking = FORMS[form](asked.seed)

@@ -13,7 +13,6 @@ held after a fifth; `places` are those that the map says were visited, of so man
 
 from __future__ import annotations
 
-import argparse
 import gc
 import time
 from collections.abc import Callable, Mapping
@@ -26,7 +25,7 @@ from typing import Any
 import numpy as np
 from cogmap.agent import Agent
 from cogmap.worlds import MAZES, Maze, MazeEnv, NoisyWorld, hall
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 
 Row = dict[str, Any]
 Sensing = Callable[[Mapping[str, Any], int], Mapping[str, Any]]
@@ -77,16 +76,12 @@ FORMS: dict[str, tuple[Maze, dict[str, float], bool]] = {
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("forms", nargs="*", metavar="FORM", help=f"some of {', '.join(FORMS)}; all by default")
+    parser = arguments(__doc__, forms=FORMS)
     parser.add_argument("--steps", type=positive, default=2000)
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args()
-    if unknown := [form for form in asked.forms if form not in FORMS]:
-        parser.error(f"no form {unknown[0]!r}; there are {', '.join(FORMS)}")
     rows: list[Row] = []
-    for form in asked.forms or FORMS:
+    for form in asked.forms:
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as alone:
             rows.append(alone.submit(walk, form, asked.steps, asked.seed).result())
         print({k: round(v, 3) if isinstance(v, float) else v for k, v in rows[-1].items()}, flush=True)

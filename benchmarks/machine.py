@@ -1,12 +1,10 @@
 """What a figure was measured on, and how it is written down."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import os
 import platform
-from collections.abc import Mapping
+from collections.abc import Callable, Collection, Mapping
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -24,6 +22,27 @@ def machine() -> dict[str, Any]:
         "python": platform.python_version(),
         **{name: version(name) for name in PACKAGES},
     }
+
+
+def arguments(about: str | None, **some: Collection[str]) -> argparse.ArgumentParser:
+    """What every benchmark can be told: which of `some` to do (all unless given), and `--json`."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for what, names in some.items():
+        about = f"some of {', '.join(map(repr, names))}; all unless given"
+        parser.add_argument(what, nargs="*", type=one_of(names), default=list(names), help=about)
+    parser.add_argument("--json", type=json_path, metavar="FILE", help="of what was found")
+    return parser
+
+
+def one_of(names: Collection[str]) -> Callable[[str], str]:
+    """One of these names, for argparse."""
+
+    def named(text: str) -> str:
+        if text not in names:
+            raise argparse.ArgumentTypeError(f"there is no {text!r}; there are {', '.join(map(repr, names))}")
+        return text
+
+    return named
 
 
 def positive(text: str) -> int:

@@ -11,7 +11,6 @@ Run i has seed i. `--mazes` chooses some of them, `--json FILE` keeps the rows.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 from unittest.mock import patch
@@ -35,7 +34,7 @@ from cogmap.worlds import (
     shortest_path,
     spiral,
 )
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 Row = dict[str, Any]
 
@@ -231,11 +230,10 @@ MEASURES: Mapping[str, tuple[Callable[[str, Maze, int], list[Row]], Mapping[str,
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("measure", choices=MEASURES)
     parser.add_argument("--mazes", nargs="+", help="all of the measure unless given")
     parser.add_argument("--runs", type=int, default=20)
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     measure, mazes = MEASURES[asked.measure]
     if unknown := sorted(set(asked.mazes or ()) - set(mazes)):

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from cogmap.inference import compile_graph, infer
 from cogmap.model import CogmapError, FactorGraph, load_graph
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 
 SUFFIXES = (".bif", ".xmlbif", ".bifxml", ".uai")
 QUESTIONS = ("all", "one", "again")
@@ -225,7 +225,7 @@ def summary(rows: Sequence[dict[str, Any]]) -> dict[str, float]:
 
 
 def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--only", nargs="+", help="names of the files, without suffix")
     parser.add_argument("--runs", type=positive, default=5)
@@ -234,7 +234,6 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--peer-below", type=float, default=3e8, help="pyAgrum is asked where we need no more bytes")
     parser.add_argument("--no-peer", dest="peer", action="store_false")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--json", type=json_path)
     return parser.parse_args(given)
 
 

@@ -12,7 +12,6 @@ no visit to another cell was held to be in. Places are laid over the truth by th
 
 from __future__ import annotations
 
-import argparse
 import json
 import time
 from collections import defaultdict
@@ -22,7 +21,7 @@ from typing import Any
 import numpy as np
 from cogmap.agent import Agent
 from cogmap.model import Plane, Sight, Ways
-from machine import json_path, positive, write_json
+from machine import arguments, positive, write_json
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
@@ -91,13 +90,12 @@ def _off(agent: Agent, truth: Floats, visits: list[tuple[int, tuple[int, int]]],
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("log", type=Path, metavar="LOG")
     parser.add_argument("--labels", type=positive, help="drawn at random; all different unless given")
     parser.add_argument("--cell", type=float, default=2.0, help="metres a side")
     parser.add_argument("--starts", type=positive, default=1, help="seeds of labels at random")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--json", type=json_path, metavar="FILE")
     args = parser.parse_args()
     log = json.loads(args.log.read_text())
     rows = [replayed(log, args.cell, args.labels, seed) for seed in range(args.seed, args.seed + args.starts)]

@@ -18,7 +18,6 @@ An agent explores `4x4` (where not said otherwise) and goes on; its map is judge
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Sequence
 from time import process_time
 from typing import Any
@@ -29,7 +28,7 @@ from cogmap.experiments.judging import Trail
 from cogmap.experiments.running import Moment
 from cogmap.model import Features, Sight, Ways
 from cogmap.worlds import frozen_lake, load_world, place_of
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 from cogmap import UNSEEN
 
@@ -222,13 +221,9 @@ def seeds(text: str) -> range:
 
 def main(given: Sequence[str] | None = None) -> None:
     """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("rows", nargs="*", default=list(ROWS), metavar="ROW", help=", ".join(ROWS))
+    parser = arguments(__doc__, rows=ROWS)
     parser.add_argument("--seeds", type=seeds, default=range(20))
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
-    if unknown := [row for row in asked.rows if row not in ROWS]:
-        parser.error(f"there is no row {unknown[0]!r}; rows are {', '.join(ROWS)}")
     found: dict[str, list[Row]] = {}
     for name in asked.rows:
         begun = process_time()

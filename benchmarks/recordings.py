@@ -9,7 +9,6 @@ most probable is not where the walk has led, in the positions of the world; plac
 
 from __future__ import annotations
 
-import argparse
 import time
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
@@ -18,7 +17,7 @@ from typing import Any
 
 from cogmap.agent import Agent
 from cogmap.behaviour import load_ground, load_walks, routes_of
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 KEPT = 100
 """Steps whose records the agent keeps."""
@@ -46,13 +45,12 @@ def along(individual: str, *, walks: Path, world: str, steps: int | None) -> dic
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("walks", type=Path, metavar="WALKS", help="recorded walks, as `cogmap fit` takes them")
     parser.add_argument("--world", required=True, metavar="WORLD")
     parser.add_argument("--individuals", nargs="+", metavar="NAME", help="all, unless given")
     parser.add_argument("--steps", type=int, help="the first so many of each; all, unless given")
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--json", type=json_path, metavar="FILE")
     asked = parser.parse_args()
     names = sorted({walk.individual for walk in load_walks(asked.walks)})
     if unknown := [name for name in asked.individuals or () if name not in names]:

@@ -32,7 +32,7 @@ from cogmap.experiments import Truth
 from cogmap.planning import CHOICES, LocalCache, Planner
 from cogmap.worlds import Maze, MazeEnv, Position, labyrinth
 from known import known_agent
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 Row = dict[str, Any]
 WARM = 10
@@ -141,7 +141,7 @@ def save(rooms: int, asked: argparse.Namespace) -> Row:
         tracemalloc.start()
         loaded = Agent.load(path)
         held, _ = tracemalloc.get_traced_memory()
-        _plan_everywhere(loaded)
+        plan_everywhere(loaded)
         in_use, _ = tracemalloc.get_traced_memory()
         tracemalloc.stop()
     assert len(loaded.map.places) == rooms
@@ -149,7 +149,7 @@ def save(rooms: int, asked: argparse.Namespace) -> Row:
     return {"save_s": seconds[0], "load_s": seconds[1], **{name: value / rooms for name, value in a_room.items()}}
 
 
-def _plan_everywhere(agent: Agent) -> None:
+def plan_everywhere(agent: Agent) -> None:
     """Let it keep what a plan keeps of a place, of all places, and look up a sight."""
     places, cache = np.arange(len(agent.map.places)), LocalCache(agent.map, agent.settings.look_ahead)
     for part in np.array_split(places, max(1, len(places) // 1000)):
@@ -203,7 +203,7 @@ PARTS = {part.__name__: part for part in (localised, goal, lost, save, explore)}
 
 
 def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("--rooms", type=int, nargs="+", default=[16, 100, 1000, 10_000, 100_000])
     parser.add_argument("--parts", nargs="+", default=list(PARTS), choices=PARTS)
     parser.add_argument("--loops", type=float, default=0.1, help="of the labyrinths, 0 to 1")
@@ -218,7 +218,6 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--choice", default="outward", choices=CHOICES, help="between policies")
     parser.add_argument("--seed", type=int, default=0, help="of the first maze of `explore`")
     parser.add_argument("--profile", action="store_true", help="print the functions that take longest")
-    parser.add_argument("--json", type=json_path)
     asked = parser.parse_args(given)
     if asked.seed < 0:
         parser.error(f"--seed is {asked.seed}; give 0 or more")

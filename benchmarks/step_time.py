@@ -25,7 +25,7 @@ from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError
 from cogmap.planning import POLICIES, Planner
 from cogmap.worlds import load_world
-from machine import json_path, write_json
+from machine import arguments, write_json
 
 IMPORT = "import time; t = time.perf_counter(); import cogmap.agent; print(time.perf_counter() - t)"
 
@@ -90,14 +90,13 @@ def _own_peak() -> float:
 
 
 def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = arguments(__doc__)
     parser.add_argument("world", nargs="?", default="4x4")
     parser.add_argument("--steps", type=int, default=100)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--look-ahead", type=int, nargs="+", default=[6])
     parser.add_argument("--policies", nargs="+", default=["map_guided"], choices=[*POLICIES, "all"])
     parser.add_argument("--seconds", type=float, default=60.0, help="of a run, at most")
-    parser.add_argument("--json", type=json_path)
     parser.add_argument("--peak-only", action="store_true", help="walk once and print megabytes")
     return parser.parse_args(given)
 

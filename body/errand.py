@@ -26,7 +26,7 @@ class Errand:
 
 
 def errand_of(mission: str) -> Errand | None:
-    """What a mission asks for, where it is a goal or one thing; None where it asks for more, or for something else.
+    """The goal of a mission, if it asks for a goal or for one object; None otherwise.
 
     Of a mission with a key to be used, the goal is what counts.
     """

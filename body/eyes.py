@@ -26,7 +26,7 @@ class View:
 
 
 class Eyes:
-    """Makes out tiles. Of pixels it estimates noise and light, anew in every frame.
+    """Recognises tiles. For pixels it estimates noise and brightness in every frame.
 
     Attributes:
         noise: standard deviation of the noise in pixels of the last frame, of 255; 0 of symbols.

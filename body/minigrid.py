@@ -1,7 +1,5 @@
 """A body for MiniGrid: it sees seven by seven tiles, and finds its way through rooms."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from typing import Any, Protocol
 
@@ -14,12 +12,14 @@ from .protocol import Percept
 from .room_map import CENTRE, Pose, RoomMap, around
 from .routes import distances, route
 from .vocabulary import vocabulary
-from .whereabouts import FORWARD, LEFT, LOST, NOTHING, RIGHT, SURE, Whereabouts, moved
+from .whereabouts import FORWARD, LEFT, NOTHING, RIGHT, SURE, UP, Whereabouts, moved
 
-UP = 3
-"""The way a body faces where it wakes up, whatever that is in the world."""
-_LOOKS, _TRIES, _PATIENCE, _ASTRAY = 40, 400, 12, 40
-_LOST_IN_NOISE = 16.0  # nats: as LOST, where three tiles may have been misread
+_LOOKS, _TRIES, _PATIENCE = 40, 400, 12
+_LOST, _LOST_IN_NOISE = 13.0, 20.0
+"""Nats by which the best pose must be worse than one of which nothing is known, for nothing that was expected to be
+seen; in noise three tiles may have been misread."""
+_STRAIGHT = 0.95  # belief in the way it faces, from which on it leaves a room
+_CHECKS = 60  # steps that making sure of that may take
 _AGAIN = 3  # looks that it takes before it gives a way up that it sees, where its eyes are bad
 _PASSAGE = 5.0  # tiles that a passage is expected to have before any was walked
 
@@ -33,7 +33,7 @@ class Limbs(Protocol):
 
 
 class MiniGridBody:
-    """Goes from room to room in any MiniGrid world, by the view alone: no compass, no true state, no grid.
+    """Moves from room to room in any MiniGrid world by its view alone: no compass, no true state, no grid.
 
     Rooms are chunks of space bounded by doors and gaps. Ways are the four directions of a frame of its own, in which
     it faced up where it woke.
@@ -51,18 +51,21 @@ class MiniGridBody:
     def __init__(self, limbs: Limbs, *, glance: int = 0) -> None:
         self._limbs, self._glance = limbs, glance
         self._barred: set[mg.Tile] = set()
-        self._eyes, self._known, self._sizes = Eyes(), RoomMap(), Sizes()
-        self._where = Whereabouts((CENTRE, CENTRE, UP))
+        self._eyes, self._sizes, self._where = Eyes(), Sizes(), Whereabouts()
         self._seed: mg.Tile = (CENTRE, CENTRE)
         self._given_up: set[mg.Tile] = set()
         self._far, self._walked = _PASSAGE, 1
         self.steps, self.ended, self.reward = 0, False, 0.0
-        self._confused, self._unsure, self._odd = False, 0, 0
+        self._confused, self._odd = False, 0
 
     @property
     def pose(self) -> Pose:
         """Where it takes itself to be in its room, in its own frame."""
         return self._where.pose
+
+    @property
+    def _known(self) -> RoomMap:
+        return self._where.known
 
     @property
     def slip(self) -> float:
@@ -76,10 +79,7 @@ class MiniGridBody:
 
     def begin(self, observation: Any) -> None:
         """Open the eyes in a new world, of which nothing is known; the frame begins with where it faces."""
-        self._known.clear()
-        self._known.key = -1
-        self._sizes = Sizes()
-        self._where = Whereabouts((CENTRE, CENTRE, UP))
+        self._sizes, self._where = Sizes(), Whereabouts()
         self.steps, self.ended, self.reward = 0, False, 0.0
         self._anew(observation)
 
@@ -214,42 +214,39 @@ class MiniGridBody:
         self._sense(action, observation)
 
     def _sense(self, action: int, observation: Any) -> None:
-        view = self._eyes.look(observation["image"])
-        meant = moved(self.pose, action, self._known)
-        self._where.update(action, view, self._known)
-        self._unsure = 0 if self._where.certainty >= SURE else self._unsure + 1
-        if self._where.misfit > (LOST if not self._eyes.noise else _LOST_IN_NOISE):
-            self._odd += 1
-        else:
-            self._odd = 0
-        if self._odd > (self._eyes.noise > 0.0) or self._unsure > _ASTRAY:  # one blurred look may be wrong
-            self._where.set(meant)  # which way it faces may be the same still
-            self._anew(observation)
+        view, meant = self._eyes.look(observation["image"]), moved(self.pose, action, self._known)
+        limit = _LOST_IN_NOISE if self._eyes.noise else _LOST
+        self._where.update(action, view, most=limit)
+        self._odd = self._odd + 1 if self._where.misfit > limit else 0
+        if self._odd > (self._eyes.noise > 0.0):  # one blurred look may be wrong
+            self._anew(observation, meant[2])  # which way it faces may be the same still
             self._confused = True
-        elif self._where.certainty >= SURE and not self._odd:
-            self._known.add(self.pose, view)
 
-    def _anew(self, observation: Any) -> None:
-        """Nothing is known of where it is; it takes itself to face where it faced."""
-        self._known.clear()
+    def _anew(self, observation: Any, heading: int = UP) -> None:
+        """Nothing is known of where it is, but which way it takes itself to face."""
+        known = RoomMap()
+        known.key = self._known.key
+        self._seed, self._odd, self._confused = (CENTRE, CENTRE), 0, False
         self._given_up.clear()
         self._barred.clear()
-        self._seed, self._unsure, self._odd = (CENTRE, CENTRE), 0, 0
-        self._where.set((CENTRE, CENTRE, self.pose[2]))
-        self._known.add(self.pose, self._eyes.look(observation["image"]))
-        self._confused = False
+        self._where.set((*self._seed, heading), known)
+        known.add(self.pose, self._eyes.look(observation["image"]))
 
     def _through(self, way: int, limit: int) -> str:
         """Follow the passage of a way to the floor beyond."""
         now = self._outlook()
         room, exits = now.room, self._exits(now, way)
         left: set[mg.Tile] = set()  # what was tried in vain
-        waited = again = 0
+        waited = again = checks = 0
         while self.steps < limit and not self.ended:
             if self._confused or self._called:
                 return "unsure"
             here = self.pose[:2]
-            if here not in room and not self._known.narrow(here) and self._where.certainty >= SURE:
+            if here in room and checks < _CHECKS and (check := self._make_sure(room)) is not None:
+                checks += 1
+                self._act(check)
+                continue
+            if self._where.share(lambda tile, known: tile not in room and not known.narrow(tile)) >= SURE:
                 return "arrived"
             if not exits:
                 exits = self._exits(self._outlook(), way) - left
@@ -271,6 +268,20 @@ class MiniGridBody:
                 self._barred |= exits
                 return "blocked"
         return "unsure"
+
+    def _make_sure(self, room: Collection[mg.Tile]) -> int | None:
+        """How to see which way it faces, before it leaves by the wrong way; None where it knows, or nothing tells."""
+        if self._where.straight >= _STRAIGHT:
+            return None
+        steps = distances(self.pose, self._known, room)
+        telling = np.flatnonzero(self._where.telling(steps))
+        spot = [*steps][telling[0]] if len(telling) else None
+        if spot is None:  # nor does what is known tell it: see more
+            unseen = frozenset[mg.Tile]().union(*self._outlook().unknown)
+            found = viewpoint(steps, unseen) if unseen else None
+            spot = None if found is None else found[0]
+        plan = None if spot is None else route(self.pose, self._known, [spot], within=room)
+        return plan[0] if plan else None
 
     def _floor(self, room: Collection[mg.Tile]) -> set[mg.Tile]:
         """A room, and the passage in which it stands, if that is where it is: there is a way back."""
@@ -324,10 +335,10 @@ class MiniGridBody:
         self._walked += 1
         keep = {(x + i, y + j) for x, y in room for i in (-2, -1, 0, 1, 2) for j in (-2, -1, 0, 1, 2)}
         x, y, heading = self.pose
-        self._seed = self._known.recentre((x, y), keep)
+        self._seed = (CENTRE, CENTRE)
         self._given_up.clear()
         self._barred.clear()
-        self._where.set((*self._seed, heading))
+        self._where.set((*self._seed, heading), self._known.about((x, y), keep))
         if self._glance:
             now = self._outlook()
             for way in range(4):

@@ -9,7 +9,7 @@ OUTCOMES = ("arrived", "blocked", "unsure")
 
 @dataclass(frozen=True, slots=True)
 class Percept:
-    """What a lower level brings of one step of the upper one.
+    """What a lower level reports about one upper-level step.
 
     Attributes:
         sight: the label of the place, or likelihoods of labels; None where nothing was made out.
@@ -31,7 +31,7 @@ class Percept:
 
 @runtime_checkable
 class Body(Protocol):
-    """A lower level. It is told which way to go, and finds out how; what it costs is counted in low-level steps."""
+    """A lower level: it receives the way to take, and carries out the move. Costs are counted in low-level steps."""
 
     def wake(self) -> Percept:
         """Look round once: nothing is known of where this is."""

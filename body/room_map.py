@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +22,7 @@ CENTRE = SIDE // 2
 UNKNOWN = -1
 _SURE = 14.0  # nats: two looks that agree; what has changed is believed after as many
 _NOVEL = 0.1  # nats: how surprising a tile is of which nothing is known; what lies beside what is known mostly goes on
+_MOST_NOVEL = 1.0  # and all of a view: a room goes on or ends, its tiles do not decide one by one
 
 Mask = NDArray[np.bool_]
 
@@ -44,7 +46,7 @@ class Masks:
 
 
 class RoomMap:
-    """Evidence for every tile, summed over looks.
+    """What every tile is taken for, and how surely, from all looks at it.
 
     Attributes:
         tile: `[y, x]` the most likely tile, `UNKNOWN` where none was seen.
@@ -53,9 +55,9 @@ class RoomMap:
 
     def __init__(self) -> None:
         self._words = vocabulary()
-        self._evidence = np.zeros((SIDE, SIDE, len(self._words.codes)))
-        self.tile: NDArray[np.int64] = np.full((SIDE, SIDE), UNKNOWN, dtype=np.int64)
-        self._stood: set[mg.Tile] = set()
+        self.tile: NDArray[np.int16] = np.full((SIDE, SIDE), UNKNOWN, dtype=np.int16)
+        self._sure = np.zeros((SIDE, SIDE), dtype=np.float32)  # nats by which it is likelier than what is next
+        self._stood = np.zeros((SIDE, SIDE), dtype=np.bool_)
         self._masks: Masks | None = None
         self._key = -1
 
@@ -68,68 +70,73 @@ class RoomMap:
     def key(self, colour: int) -> None:
         self._key, self._masks = colour, None
 
-    def clear(self) -> None:
-        """Forget everything."""
-        self._masks = None
-        self._evidence[:] = 0.0
-        self.tile[:] = UNKNOWN
-        self._stood.clear()
+    def copy(self) -> RoomMap:
+        """One that goes on by itself."""
+        new = copy(self)
+        new.tile, new._sure, new._stood = self.tile.copy(), self._sure.copy(), self._stood.copy()
+        return new
 
-    def recentre(self, tile: mg.Tile, keep: Iterable[mg.Tile]) -> mg.Tile:
-        """Forget all but `keep`, and move the map so that `tile` is in its middle; answers with where that is."""
-        dx, dy = CENTRE - tile[0], CENTRE - tile[1]
-        kept = [(x, y, self._evidence[y, x].copy(), int(self.tile[y, x])) for x, y in keep]
-        stood = {(x + dx, y + dy) for x, y in self._stood & {(x, y) for x, y, _, _ in kept}}
-        self.clear()
-        for x, y, evidence, number in kept:
-            if 0 <= x + dx < SIDE and 0 <= y + dy < SIDE:
-                self._evidence[y + dy, x + dx], self.tile[y + dy, x + dx] = evidence, number
-        self._stood, self._masks = stood, None
-        return CENTRE, CENTRE
+    def same(self, other: RoomMap) -> bool:
+        """Whether another has the same tiles."""
+        return np.array_equal(self.tile, other.tile)
+
+    def about(self, tile: mg.Tile, keep: Iterable[mg.Tile]) -> RoomMap:
+        """One of `keep` alone, moved so that `tile` is in its middle."""
+        new, (dx, dy) = RoomMap(), (CENTRE - tile[0], CENTRE - tile[1])
+        x, y = np.array([(x, y) for x, y in keep if 0 <= x + dx < SIDE and 0 <= y + dy < SIDE]).T
+        for mine, its in ((self.tile, new.tile), (self._sure, new._sure), (self._stood, new._stood)):
+            its[y + dy, x + dx] = mine[y, x]
+        new._key = self._key
+        return new
 
     def log_likelihood(self, poses: NDArray[np.int64], view: View) -> NDArray[np.float64]:
         """`[n]` log P(view | pose) of each pose `[n, 3]`; tiles of which nothing is known count as novel."""
-        x, y = self._places(poses)
-        tile = self.tile[y, x]
-        each = np.where(
-            tile == UNKNOWN, -_NOVEL, view.log_likelihood[np.arange(len(view.tile))[None, :], np.maximum(tile, 0)]
-        )
-        return (each * view.seen).sum(axis=1)
+        tile = self.at(poses)
+        each = view.log_likelihood[np.arange(len(view.tile))[None, :], np.maximum(tile, 0)]
+        novel = (tile == UNKNOWN) & view.seen
+        return (each * (view.seen & ~novel)).sum(axis=1) - np.minimum(_NOVEL * novel.sum(axis=1), _MOST_NOVEL)
 
     def novelty(self, view: View) -> float:
         """log P(view | a pose of which nothing is known)."""
-        return -_NOVEL * float(view.seen.sum())
+        return -min(_NOVEL * float(view.seen.sum()), _MOST_NOVEL)
+
+    def at(self, poses: NDArray[np.int64]) -> NDArray[np.int16]:
+        """`[n, 49]` the tiles that lie in view from poses `[n, 3]`."""
+        x, y = _places(poses)
+        return self.tile[y, x]
 
     def add(self, pose: Pose, view: View) -> None:
         """Take in a view from a pose."""
-        x, y = self._places(np.array([pose]))
-        x, y = x[0][view.seen], y[0][view.seen]
-        evidence = self._evidence[y, x] + view.log_likelihood[view.seen]
-        evidence = np.maximum(evidence - evidence.max(axis=1, keepdims=True), -_SURE)
-        self._evidence[y, x] = evidence
-        self.tile[y, x] = evidence.argmax(axis=1)
-        self._stood.add(pose[:2])
+        x, y = _places(np.array([pose]))
+        x, y, new = x[0][view.seen], y[0][view.seen], view.tile[view.seen]
+        against, old = view.log_likelihood[view.seen], self.tile[y, x]
+        second = np.partition(against, -2, axis=1)[:, -2]
+        sure = np.where(old == new, self._sure[y, x] - second, self._sure[y, x])
+        sure += np.where((old != new) & (old != UNKNOWN), against[np.arange(len(old)), np.maximum(old, 0)], 0.0)
+        sure = np.where(old == UNKNOWN, second, sure)
+        turned = (sure <= 0.0) & (old != new)  # it is another tile from now on
+        self.tile[y, x], self._sure[y, x] = np.where(turned, new, old), np.minimum(np.abs(sure), _SURE)
+        self._stood[pose[1], pose[0]] = True
         self._masks = None
 
     def unlearn(self, tile: mg.Tile) -> None:
         """Forget a tile that has been changed."""
-        self._stood.discard(tile)
-        self._evidence[tile[1], tile[0]] = 0.0
-        self.tile[tile[1], tile[0]] = UNKNOWN
+        self.tile[tile[1], tile[0]], self._sure[tile[1], tile[0]], self._stood[tile[1], tile[0]] = UNKNOWN, 0.0, False
         self._masks = None
 
     def evidence(self, tiles: Iterable[mg.Tile]) -> NDArray[np.float64]:
         """`[K]` evidence for each kind of tile, summed over tiles of which something is known."""
-        known = [(x, y) for x, y in tiles if self.tile[y, x] != UNKNOWN]
-        return sum((self._evidence[y, x] for x, y in known), np.zeros(len(self._words.codes)))
+        x, y = np.array(list(tiles)).T
+        x, y = x[self.tile[y, x] >= 0], y[self.tile[y, x] >= 0]
+        return np.bincount(self.tile[y, x], weights=self._sure[y, x], minlength=len(self._words.codes))
 
     def known(self, tile: mg.Tile) -> bool:
         """Whether anything is known of a tile."""
-        return self.tile[tile[1], tile[0]] != UNKNOWN or tile in self._stood
+        return bool(self.tile[tile[1], tile[0]] != UNKNOWN or self._stood[tile[1], tile[0]])
 
     def free(self, tile: mg.Tile) -> bool:
         """Whether one can stand there."""
-        return bool(self._words.free[self.tile[tile[1], tile[0]]]) or tile in self._stood
+        return bool(self._words.free[self.tile[tile[1], tile[0]]] or self._stood[tile[1], tile[0]])
 
     def wall(self, tile: mg.Tile) -> bool:
         """Whether a wall is there."""
@@ -155,10 +162,8 @@ class RoomMap:
         """What the tiles are, as truth values; worked out anew where the map has changed."""
         if self._masks is None:
             words, tile = self._words, self.tile
-            free, wall, door = words.free[tile], words.wall[tile], words.door[tile]
-            known = tile != UNKNOWN
-            for x, y in self._stood:
-                free[y, x] = known[y, x] = True
+            free, wall, door = words.free[tile] | self._stood, words.wall[tile], words.door[tile]
+            known = (tile != UNKNOWN) | self._stood
             shut = words.shut[tile] | ((words.locked[tile] == self._key) & (self._key >= 0))
             self._masks = Masks(free, wall, door, shut, known, _narrow(free, wall, door, known))
         return self._masks
@@ -174,10 +179,10 @@ class RoomMap:
         parts = labelled[0]
         return parts == parts[tile[1], tile[0]]
 
-    def _places(self, poses: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        where = poses[:, None, :2] + _OFFSETS[poses[:, 2]]
-        where = np.clip(where, 0, SIDE - 1)
-        return where[..., 0], where[..., 1]
+
+def _places(poses: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    where = np.clip(poses[:, None, :2] + _OFFSETS[poses[:, 2]], 0, SIDE - 1)
+    return where[..., 0], where[..., 1]
 
 
 def around(tile: mg.Tile) -> Iterator[tuple[int, mg.Tile]]:

@@ -10,7 +10,7 @@ from gymnasium import spaces
 from ..model import UNSEEN
 from ..worlds import GRID, Maze, Motions, Observation, Place, WorldError
 from ..worlds import minigrid as mg
-from .minigrid import UP, MiniGridBody
+from .minigrid import MiniGridBody
 from .protocol import Percept
 
 GOAL = "white"
@@ -20,10 +20,10 @@ _NAMES = ("right", "down", "left", "up")  # the ways of a body by their numbers,
 
 
 class EmbodiedWorld(gym.Env[Observation, Any]):
-    """A room maze of MiniGrid as the agent above lives in it: an action is a way, an observation a percept.
+    """A MiniGrid room maze as the upper-level agent sees it: actions are ways, observations are percepts.
 
-    The body sees the view alone. The frame in which it woke up is called as the map is drawn, which changes names and
-    nothing else. The truth is in `info`: `position`, `low_level_steps`, `tiles_seen`.
+    The body sees the view alone. Its frame, as it is once it has looked round, is called as the map is drawn, which
+    changes names and nothing else. The truth is in `info`: `position`, `low_level_steps`, `tiles_seen`.
 
     Args:
         env: a `RoomsEnv`, in wrappers or not.
@@ -69,10 +69,10 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
     ) -> tuple[Observation, dict[str, Any]]:
         """Wake up somewhere; the options are those of `RoomsEnv`."""
         super().reset(seed=seed)
-        seen, info = self.env.reset(seed=seed, options=options)
-        self._turn = (info["heading"] - UP) % 4
+        seen, _ = self.env.reset(seed=seed, options=options)
         self.body.begin(seen)
         self._percept = self.body.wake()
+        self._turn = (int(self.rooms.agent_dir) - self.body.pose[2]) % 4
         return self._observation(), self._info()
 
     def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:

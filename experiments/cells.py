@@ -27,7 +27,7 @@ Key = tuple[str, str, str, str, int]
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """One exploration that is to be made."""
+    """One exploration to be run."""
 
     maze: Maze  # its layout
     agent: str  # one of `AGENTS`
@@ -42,7 +42,7 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Row(Record):
-    """One exploration that was made, as ledgers keep it. Rows are equal whatever seconds they took."""
+    """One finished exploration, as ledgers keep it. Rows are equal whatever time they took."""
 
     world: str  # name of the maze
     layout: str = field(repr=False)  # digest of rooms and sights, since two mazes may have one name

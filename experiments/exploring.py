@@ -88,7 +88,7 @@ class Walk:
 
 
 def walk(world: World, seed: int = 0, *, watch: Watch | None = None, **options: Unpack[Options]) -> Walk:
-    """Let an agent explore until it is done or out of steps.
+    """Let an agent explore until the maze is complete or the steps are used up.
 
     Args:
         world: a maze, or an environment with a chart.
@@ -131,7 +131,7 @@ def _cost(agent: Any) -> float | None:
 
 
 def explore(world: World, seed: int = 0, **options: Unpack[Options]) -> ExploreRun:
-    """The figures of `walk`."""
+    """One exploration, in figures; see `walk`."""
     return walk(world, seed, **options).run
 
 

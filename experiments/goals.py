@@ -17,7 +17,7 @@ MOST_LABELS = 40  # listed in an error
 def check_goal(
     world: World, goal: Label, *, weight: float = WEIGHT, closed: Collection[Place] = (), known: bool = True
 ) -> None:
-    """Refuse a goal that cannot be reached, or is not preferred, before anything is walked.
+    """Refuse a goal that cannot be reached or is not preferred, before the agent walks.
 
     Raises:
         CogmapError: no room has the label, a weight that is not above 0 or not finite, or rooms to close that are not

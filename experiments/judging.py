@@ -21,7 +21,7 @@ OPEN = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A map beside the truth."""
+    """The comparison of a map with the truth."""
 
     places: int  # those that were visited, and those that are imagined behind ways believed open
     # whether each visited room is one place, each visited place one room, and every true transition among
@@ -57,7 +57,7 @@ def judge(map_: CognitiveMap, chart: Chart, rooms: Mapping[int, Place], visited:
 
 
 class Trail:
-    """Looks on: where an agent truly was, where it took itself to be, and how often it was certain and wrong.
+    """Records where an agent truly was, where it believed it was, and how often it was certain and wrong.
 
     Attributes:
         rooms: the true room at each step.

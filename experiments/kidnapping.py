@@ -16,7 +16,7 @@ AFTER = 20  # steps that a run goes on after recovery, before the map is checked
 
 @dataclass(frozen=True, slots=True)
 class KidnapRun(Record):
-    """One kidnapping. Where the world was not explored within the steps allowed, nobody was moved."""
+    """One kidnapping. If the world was not explored within the allowed steps, the agent was not moved."""
 
     seed: int  # of the start room, of the agent, and of where it was moved to
     start: Place  # the first room
@@ -32,7 +32,7 @@ class KidnapRun(Record):
 
 
 def kidnap(world: World, seed: int = 0, **options: Unpack[Options]) -> KidnapRun:
-    """Let an agent explore, move it to another random room without a word, reset nothing, and let it go on.
+    """Let an agent explore, move it silently to another random room, and let it continue. Nothing is reset.
 
     Args:
         world: a maze, or an environment with a chart in which agents can be moved.
@@ -59,7 +59,7 @@ def kidnap(world: World, seed: int = 0, **options: Unpack[Options]) -> KidnapRun
 
 
 def check_kidnap(world: World) -> None:
-    """Refuse a world in which nobody can be moved, or that has one place only.
+    """Refuse a world in which the agent cannot be moved, or which has only one place.
 
     Raises:
         CogmapError: one place only.

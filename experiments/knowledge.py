@@ -17,7 +17,7 @@ Offset = tuple[int, ...]
 
 
 class Truth:
-    """The transitions of a world with everything open, to compare maps with.
+    """The transitions of a world with all doors open, to compare maps with.
 
     A true place stands for the place that a map has where the displacements of the actions lead from `start`. Where
     these do not fit into a lattice no place of a map stands for any, and nothing is learned. The true transitions are

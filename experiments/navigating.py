@@ -15,7 +15,7 @@ from .session import Many, Options, Session, World, chart_of, described, draw_st
 
 @dataclass(frozen=True, slots=True)
 class NavigateRun(Record):
-    """One way to a goal: a room with the preferred sight in which the agent chooses to stay."""
+    """One walk to a goal: a room with the preferred sight in which the agent chooses to stay."""
 
     seed: int  # of everything random
     start: Place | None  # the room from which it sets out for the goal; None where it did not explore the maze in time

@@ -25,7 +25,7 @@ _NO_NAME = re.compile(r"[^\w.+-]|^\.+")
 def check_outputs(
     paths: Iterable[Path | None], *, inputs: Iterable[Path | str] = (), picture: Path | None = None
 ) -> None:
-    """Refuse, before anything is computed, what could not be written afterwards.
+    """Refuse output files that could not be written, before anything is computed.
 
     Args:
         paths: the outputs, all different.
@@ -51,17 +51,17 @@ def check_outputs(
 
 
 def file_named(name: str, suffix: str) -> Path:
-    """A file in this folder for something with that name, whatever signs are in it."""
+    """A file name in this folder for a world of that name, whatever characters are in it."""
     return Path((_NO_NAME.sub("_", name)[:80] or "_") + suffix)
 
 
 def write_json(path: Path, value: Any) -> None:
-    """Write `value` as JSON; NaN and infinity are refused, null stands for "none"."""
+    """Write `value` as JSON. NaN and infinity are refused; null stands for none."""
     write_whole(path, (json.dumps(value, indent=2, allow_nan=False) + "\n").encode())
 
 
 def write_picture(path: Path, figure: Figure, *, new: bool = False) -> Path:
-    """Write the figure in the format of the suffix; answers with its path (`new`: see `write_through`)."""
+    """Write the figure in the format of the suffix, and return its path (`new`: see `write_through`)."""
     return write_whole(path, picture_of(figure, path.suffix.lower().removeprefix(".")), new=new)
 
 

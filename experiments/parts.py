@@ -32,7 +32,7 @@ AGENTS = ("cogmap", "frontier", "random", *CSCG)
 
 
 class Maker(Protocol):
-    """Makes the agents of a sweep, each with a seed of its own; to go to other processes it must pickle."""
+    """Makes the agents of a sweep, each with its own seed. It must be picklable to run in other processes."""
 
     @property
     def agent(self) -> str:
@@ -50,30 +50,21 @@ class Maker(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """What an agent is made of, by name.
-
-    Attributes:
-        agent: one of `AGENTS`.
-        settings: of `cogmap`.
-        growth: one of `GROWTHS`; static growth is told how many places the world has.
-        policies: one of `POLICIES`.
-        choice: one of `CHOICES`.
-        pose: one of `POSES`; a lattice unless given, and none in worlds whose actions have no displacements.
-        cost: what exploring is to take little of, "steps" or "metres".
-        cscg: of the clone-structured graphs.
+    """The parts of an agent, by name.
 
     Raises:
         CogmapError: no agent, or no part, has this name.
     """
 
-    agent: str = "cogmap"
-    settings: Settings = field(default_factory=Settings)
-    growth: str = "predicted"
-    policies: str = "map_guided"
-    choice: str = "outward"
+    agent: str = "cogmap"  # one of `AGENTS`
+    settings: Settings = field(default_factory=Settings)  # of `cogmap`
+    growth: str = "predicted"  # one of `GROWTHS`; static growth is told how many places the world has
+    policies: str = "map_guided"  # one of `POLICIES`
+    choice: str = "outward"  # one of `CHOICES`
+    # one of `POSES`; a lattice unless given, and none in worlds whose actions have no displacements
     pose: str | None = None
-    cost: str = "steps"
-    cscg: CscgSettings = field(default_factory=CscgSettings)
+    cost: str = "steps"  # what exploring is to take little of, "steps" or "metres"
+    cscg: CscgSettings = field(default_factory=CscgSettings)  # of the clone-structured graphs
 
     def __post_init__(self) -> None:
         if self.agent not in AGENTS:

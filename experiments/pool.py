@@ -29,7 +29,7 @@ _log = logging.getLogger("cogmap")
 
 
 class WorkerLostError(CogmapError):
-    """A worker ended before its task did."""
+    """A worker process ended before its task did."""
 
 
 def completed(

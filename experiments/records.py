@@ -13,7 +13,7 @@ OPTIONAL = {"optional": True}  # metadata of a field that is left out of the JSO
 
 
 class Record:
-    """What rows of results have in common; fields that are records themselves are written among the others."""
+    """The base of all rows of results. Fields that are records themselves are written among the others."""
 
     __slots__ = ()
 

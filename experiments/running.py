@@ -24,7 +24,7 @@ class Walker(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """A choice that has been made and not been carried out yet."""
+    """A choice that was made and is not yet carried out."""
 
     step: int  # its number, 0 at the first observation
     agent: Walker  # who chose
@@ -40,7 +40,7 @@ Watch = Callable[[Moment], object]
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """What came of a run."""
+    """The result of a run."""
 
     agent: Any  # after its last observation
     actions: tuple[int, ...]  # what it chose, one action an observation; all were carried out
@@ -67,7 +67,7 @@ def run(
     begin: Seen | None = None,
     watch: Watch | None = None,
 ) -> Run:
-    """Let an agent live in a world: it takes in an observation and chooses an action, which is carried out.
+    """Let an agent live in a world: it receives observations, and its actions are carried out.
 
     Args:
         world: a Gymnasium environment.

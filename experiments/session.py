@@ -53,7 +53,7 @@ class Many(Options, total=False):
 
 @dataclass(slots=True)
 class Session:
-    """An agent in a world of its own."""
+    """An agent in its own copy of a world."""
 
     world: Any  # where it is
     agent: Any  # before its first step, or after its last observation; the action it then chose has been carried out
@@ -107,7 +107,7 @@ class Session:
 
 
 def set_out(experiment: str, world: World, seed: int, **options: Unpack[Options]) -> Session:
-    """A new agent that has seen nothing yet, where every experiment with this seed starts, in a copy of the world.
+    """A new agent at the start that belongs to a seed, in its own copy of the world.
 
     Raises:
         CogmapError: no agent has this name, a negative seed, or `max_steps` below 1.
@@ -123,7 +123,7 @@ def set_out(experiment: str, world: World, seed: int, **options: Unpack[Options]
 
 
 def explored(experiment: str, world: World, seed: int, **options: Unpack[Options]) -> Session:
-    """An agent that has explored the world as `explore` with the same seed would have; raises what `set_out` does."""
+    """An agent that has explored the world, as `explore` with the same seed does. Raises what `set_out` raises."""
     session = set_out(experiment, world, seed, **options)
     session.explore()
     return session
@@ -167,12 +167,12 @@ def chart_of(world: World) -> Chart:
 
 
 def default_steps(world: World) -> int:
-    """Moves after which an exploration counts as failed, unless told otherwise."""
+    """The number of moves after which an exploration counts as failed, unless one is given."""
     return 50 * len(chart_of(world).places) + 50
 
 
 def draw_start(experiment: str, world: World, seed: int) -> tuple[Place, np.random.SeedSequence, np.random.Generator]:
-    """What a seed of 0 or more settles: where to start, the stream of the agent, and draws of what happens later.
+    """What a seed determines: the start, the random stream of the agent, and later random events.
 
     Raises:
         CogmapError: a negative seed.

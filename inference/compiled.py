@@ -43,7 +43,7 @@ class _Tree:
 
 
 class CompiledGraph:
-    """A graph with its order of elimination; see `compile_graph`. Later additions to the graph do not show here."""
+    """A graph with a fixed order of elimination; see `compile_graph`. It ignores later additions to the graph."""
 
     def __init__(self, graph: FactorGraph, observed: Sequence[Name], order: Order, memory: float) -> None:
         self.graph = graph.copy()

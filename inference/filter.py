@@ -88,14 +88,14 @@ class _Candidates:
 
 
 def begin(model: GenerativeModel, place: int, percept: Percept) -> Belief:
-    """The belief of an agent that knows to be in `place`, after its first evidence."""
+    """The belief of an agent that knows that it is in `place`, after its first evidence."""
     here = np.array([place])
     prior = _Candidates.seen(model, percept, here, model.pose.of(here), np.ones(1), np.zeros(1, dtype=np.int64))
     return _update(model, None, prior, None, support=0.0, displacement=0.0)
 
 
 def advance(model: GenerativeModel, message: Message, percept: Percept, *, support: float = 1e-3) -> Belief:
-    """The belief after one more action and what is sensed then; places below `support` leave it.
+    """The belief after one more action and its evidence. Places below `support` leave the domain.
 
     Raises:
         CogmapError: the percept has no action.

@@ -38,7 +38,7 @@ class FreeEnergy:
 
 
 def is_likelihood(graph: FactorGraph, factor: Factor) -> bool:
-    """By kind where the kind tells, else whether the factor touches an observed variable."""
+    """Whether a factor is a likelihood: by its kind if it has one, otherwise if it touches an observed variable."""
     if factor.kind in LIKELIHOOD_KINDS:
         return True
     return factor.kind not in PRIOR_KINDS and any(graph.is_observed(variable) for variable in factor.scope)

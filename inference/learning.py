@@ -26,7 +26,7 @@ Data = Mapping[str, Sequence[Hashable]] | Sequence[Mapping[str, Hashable]] | Map
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """What was learned."""
+    """The result of `fit`."""
 
     # the graph with the learned values; its learnable tables are new ones, which have the prior of the old
     # ones, and as counts this prior and the expected counts of the data

@@ -25,7 +25,7 @@ def _ranked(values: Ints, mass: Floats) -> dict[int, float]:
 
 @dataclass(frozen=True)
 class Message:
-    """A filtered joint Q(s, p) over the pairs that hold mass."""
+    """The filtered joint Q(s, p), over the pairs with mass."""
 
     places: Ints  # `[n]` place of each pair
     positions: Ints  # `[n]` position (by number) of each pair
@@ -60,7 +60,7 @@ class Message:
 
 @dataclass(frozen=True, slots=True)
 class FilterOptions:
-    """How the filter predicts and what it may drop.
+    """Options of the forward filter: how it predicts, and how much mass it may drop.
 
     Attributes:
         displacement: P(moved_t): the agent was put into some visited place without being told.

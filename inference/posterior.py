@@ -17,7 +17,7 @@ LARGEST_JOINT = 2**28  # entries of the largest joint that is handed out
 
 @dataclass(frozen=True, slots=True)
 class Posterior:
-    """P(x | evidence) = Π_f f(x_f) / Z. Nothing that it hands out can be changed."""
+    """P(x | evidence) = Π_f f(x_f) / Z. All arrays that it returns are read-only."""
 
     graph: FactorGraph  # the graph as it was when asked; later additions to the original do not show here
     engine: str  # name of the engine that computed it

@@ -28,6 +28,13 @@ from .posterior import MostProbable, Name, Posterior
 Engine = str | Loopy | Sampling
 
 
+def _taken(graph: FactorGraph) -> FactorGraph:
+    """A copy of the graph, which later changes do not reach. Raises CogmapError: it is no graph."""
+    if not isinstance(graph, FactorGraph):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise CogmapError(f"inference: {type(graph).__name__} is no factor graph; give one, such as agent.graph")
+    return graph.copy()
+
+
 def infer(
     graph: FactorGraph,
     *,
@@ -56,7 +63,7 @@ def infer(
         ImpossibleEvidence: no assignment has a product above zero.
         CogmapError: unknown engine, variable or label, a bad `order`, or not enough memory.
     """
-    graph = graph.copy()
+    graph = _taken(graph)
     wanted = checked_pairs(graph, pairs)
     asked = None if targets is None else checked_targets(graph, targets)
     known = given(graph, evidence)
@@ -83,7 +90,7 @@ def most_probable(
 
     Arguments and errors as for `infer`; `engine` is an exact one.
     """
-    graph = graph.copy()
+    graph = _taken(graph)
     known = given(graph, evidence)
     labels = maximise(graph, known, _exact(engine), order=order, memory=memory)
     return MostProbable(graph, log_product(graph, labels, known), labels)
@@ -92,14 +99,14 @@ def most_probable(
 def k_most_probable(
     graph: FactorGraph, count: int, *, evidence: AllEvidence | None = None, memory: float = MEMORY
 ) -> list[MostProbable]:
-    """The `count` most probable assignments, best first; fewer where fewer have a product above 0.
+    """The `count` most probable assignments, best first; fewer if fewer have a positive product.
 
     Raises:
         CogmapError: `count` is below 1, and what `infer` raises.
     """
     if count < 1:
         raise CogmapError(f"k_most_probable: cannot give {count} assignments; ask for 1 or more")
-    graph = graph.copy()
+    graph = _taken(graph)
     known = given(graph, evidence)
     problem = reduce(graph, known)
     done = forward(buckets(problem, plan_elimination(problem, memory=memory)), problem.tables, maximum=True)
@@ -114,12 +121,12 @@ def marginal_map(
     evidence: AllEvidence | None = None,
     memory: float = MEMORY,
 ) -> MostProbable:
-    """The most probable assignment of some variables, all others summed out. For small cases: that can cost much.
+    """The most probable assignment of some variables, with all others summed out. The cost can be high.
 
     Raises:
         CogmapError: no variable is named, and what `infer` raises.
     """
-    graph = graph.copy()
+    graph = _taken(graph)
     names = checked_targets(graph, variables)
     known = given(graph, evidence)
     problem = reduce(graph, known, plain=True)

@@ -14,7 +14,7 @@ REACH = 600.0  # nats that one factor spans; a message that spans more is the pr
 
 
 class Stream:
-    """The filter of a template: what is known of the present slice, given everything up to now.
+    """A filter for a template: the posterior of the present slice, given all evidence so far.
 
     The past enters as a message over the variables that the next slice refers to, kept in logs.
 

@@ -11,7 +11,7 @@ KEPT = 1000  # entries that are kept at least, for readers who come late
 
 
 class Store(Protocol):
-    """What the log can put back: a table, a column, or the places of a map."""
+    """Anything that the log of changes can restore: a table, a column, or the places of a map."""
 
     @property
     def name(self) -> str:
@@ -36,7 +36,7 @@ class Store(Protocol):
 
 
 class Change(NamedTuple):
-    """One stored cell that was written.
+    """One stored cell that was changed.
 
     Attributes:
         store: the table or column.
@@ -55,7 +55,7 @@ Entry = Change | GrowthEvent
 
 
 class Changes:
-    """The log of one map; what readers were told stays true but where a whole step is cut off."""
+    """The append-only log of changes of one map. Only a whole step can be cut off at its end."""
 
     def __init__(self) -> None:
         self._entries: list[Entry] = []

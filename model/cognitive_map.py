@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class CognitiveMap(ReadableMap):
-    """What the agent believes the world to be; it grows, and takes back only what it grew by mistake."""
+    """The agent's model of the world. It grows, and removes only what it added by mistake."""
 
     def to_networkx(self) -> MultiDiGraph[Any]:
         """The map as a graph: places with what is known of them, transitions with action and probability."""

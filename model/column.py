@@ -12,7 +12,7 @@ from .errors import CogmapError
 
 
 class Column:
-    """A numpy array that grows along its first axis, amortised; what is set is logged, how long it is is not.
+    """A numpy array that grows along its first axis. Its values are logged, its length is not.
 
     Args:
         name: unique in its map.
@@ -54,8 +54,10 @@ class Column:
         self._length = length
 
     def _make_room(self, length: int) -> None:
-        while length > len(self._array):
-            self._array = np.concatenate([self._array, np.full_like(self._array, self._fill)])
+        if length > len(self._array):  # twice as much, or just enough for what is loaded
+            more = max(length - len(self._array), len(self._array))
+            room = np.full((more, *self._array.shape[1:]), self._fill, dtype=self._array.dtype)
+            self._array = np.concatenate([self._array, room])
 
     def append(self, value: object) -> int:
         """Append one row; returns its index."""

@@ -2,7 +2,7 @@
 
 
 class CogmapError(ValueError):
-    """Bad input to the library: the message says what, where and how to mend it.
+    """Bad input to the library. The message says what is wrong, where, and how to mend it.
 
     It is one line, and what cannot be printed, such as a control character of a label or of the name of a file, is
     written as in Python.

@@ -21,7 +21,7 @@ _TEMPORARY = re.compile(r"\..*\.cogmap-[0-9a-f]{16}(\.[^.]*)?", re.S)
 
 
 def write_whole(path: Path, content: bytes, *, new: bool = False) -> Path:
-    """Replace the file at once; answers with its path. See `write_through`.
+    """Replace the file at once, and return its path. See `write_through`.
 
     Raises:
         CogmapError: it cannot be written; what was there before still is.
@@ -30,7 +30,7 @@ def write_whole(path: Path, content: bytes, *, new: bool = False) -> Path:
 
 
 def write_through(path: Path, write: Callable[[Path], object], *, new: bool = False) -> Path:
-    """Let `write` fill a file of the same suffix beside `path`, and put it in its place when that is done.
+    """Let `write` fill a temporary file beside `path`, then put it in place of `path`.
 
     A file that is there keeps its mode and owner, a link its target; a new one is as the umask has it. What it holds
     is on the disk when this returns. What a killed process has left in the folder is swept.
@@ -73,13 +73,13 @@ def write_through(path: Path, write: Callable[[Path], object], *, new: bool = Fa
 
 
 def unused(path: Path) -> Path:
-    """The path, or where something is there already the first of NAME-2, NAME-3, … that is not."""
+    """The path, or the first of NAME-2, NAME-3, … that does not exist."""
     names = (path.with_stem(f"{path.stem}-{number}") for number in count(2))
     return path if not os.path.lexists(path) else next(name for name in names if not os.path.lexists(name))
 
 
 def check_writable(path: Path) -> os.stat_result | None:
-    """What is there, if it may be replaced; None where there is nothing.
+    """The file at a path, if it may be replaced; None if there is no file.
 
     Raises:
         CogmapError: it is a folder, a device, a pipe, or read-only.
@@ -97,7 +97,7 @@ def check_writable(path: Path) -> os.stat_result | None:
 
 
 def check_folder(path: Path) -> None:
-    """Try whether a file can be made where `path` is to be. Raises OSError: it cannot."""
+    """Check that a file can be created at `path`. Raises OSError if not."""
     probe = _beside(Path(os.path.realpath(path)))
     try:
         os.close(_opened(probe, 0o600))
@@ -106,7 +106,7 @@ def check_folder(path: Path) -> None:
 
 
 def make_folder(folder: Path) -> Path:
-    """The folder, made where it is missing. Raises CogmapError: it cannot be made."""
+    """The folder; it is created if it is missing. Raises CogmapError if it cannot be created."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

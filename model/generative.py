@@ -21,7 +21,7 @@ from .visits import Visits
 
 
 class GenerativeModel:
-    """The factors of eq. 1, and the places that they are about.
+    """The generative model of eq. 1: its factors, and the places that they share.
 
     Args:
         motions: the actions.
@@ -141,17 +141,21 @@ class GenerativeModel:
     ) -> int:
         """Append a place: a value of s of which nothing is known but its position, or the way from `source` to it.
 
+        One that was imagined, and to which no way leads any more, is taken first.
+
         Raises:
             CogmapError: there is a place at that position already.
         """
         if position is not None and self.pose.place_at(position) is not None:
             there = self.pose.place_at(position)
             raise CogmapError(f"map: position {position} has place {there} already; use place_at")
-        place = self._size
-        self.changes.append(Change(self, place, False, True))  # first, so that what is half done can be undone
-        self.put(place, True)
-        shown = position if position is None or len(position) == len(self.motions.displacements[0]) else None
-        self._log(step, "place", place, shown, source, action)
+        spare = self.pose.spare() if position is None and source is not None else None
+        place = self._size if spare is None else spare
+        if spare is None:
+            self.changes.append(Change(self, place, False, True))  # first, so that what is half done can be undone
+            self.put(place, True)
+            shown = position if position is None or len(position) == len(self.motions.displacements[0]) else None
+            self._log(step, "place", place, shown, source, action)
         if position is not None:
             self._settle(place, position, step)
         elif source is not None and action is not None:

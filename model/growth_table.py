@@ -22,7 +22,7 @@ MOST = 8  # items of one kind that a text lists
 
 @dataclass(frozen=True, slots=True)
 class GrownPlace:
-    """A place that was added, or taken away."""
+    """A place that was added or removed."""
 
     place: int  # its number; numbers of places that were taken away are given again
     step: int  # time step at which it was added

@@ -56,14 +56,14 @@ def decode(value: Any) -> Hashable:
 
 
 def plain(label: Hashable) -> Hashable:
-    """The label with numpy scalars, in tuples too, as Python's own numbers and strings."""
+    """The label with numpy scalars replaced by Python numbers and strings, within tuples too."""
     if isinstance(label, tuple):
         return tuple(plain(part) for part in cast(tuple[Hashable, ...], label))
     return label.item() if isinstance(label, np.generic) else label
 
 
 def identity(label: Hashable) -> Hashable:
-    """Equal for two labels if and only if they are the same: 1, 1.0 and True are three."""
+    """A key that is equal for two labels if and only if they are the same label: 1, 1.0 and True are three."""
     label = plain(label)
     if isinstance(label, tuple):
         return ("tuple", *(identity(part) for part in cast(tuple[Hashable, ...], label)))

@@ -83,7 +83,10 @@ def map_node_link(map_: ReadableMap) -> dict[str, Any]:
     return {
         "directed": True,
         "multigraph": True,
-        "graph": {"format": "cogmap map", "motions": dict(zip(map_.motions.names, _displacements(map_), strict=True))},
+        "graph": {
+            "format": "cogmap map",
+            "motions": dict(zip(map_.motions.names, map(list, map_.motions.displacements), strict=True)),
+        },
         "nodes": [{"id": place, **_plain_place(facts)} for place, facts in graph.nodes(data=True)],
         "edges": [
             {"source": place, "target": next_, "key": key, **facts}
@@ -127,10 +130,6 @@ def _sights(map_: ReadableMap, sight: Sight) -> list[dict[object, float]]:
             if row[slot] >= 0 and p[place, slot] > LEAST:
                 sights[place][sight.labels[row[slot]]] = float(p[place, slot])
     return sights
-
-
-def _displacements(map_: ReadableMap) -> list[list[int]]:
-    return [list(vector) for vector in map_.motions.displacements]
 
 
 def _plain_place(facts: dict[str, Any]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ Arrays = dict[str, NDArray[Any]]
 
 
 def map_state(map_: ReadableMap) -> tuple[dict[str, Any], Arrays]:
-    """What every factor has to keep, and the log of growth. Raises CogmapError: a label cannot be written as JSON."""
+    """Everything of a map that a file has to keep: the state of every factor, and the growth log."""
     stores = (map_.visits, *(store for factor in map_.factors for store in factor.stores))
     arrays = {f"{store.name}.{part}": values for store in stores for part, values in store.state().items()}
     header = {"places": len(map_.places), "factors": {factor.name: factor.state() for factor in map_.factors}}

@@ -12,7 +12,7 @@ OUTCOMES: tuple[Outcome, ...] = ("arrived", "blocked", "unsure")
 
 @dataclass(frozen=True, slots=True)
 class Percept:
-    """What was done, and then sensed.
+    """One time step: the action, and what was sensed after it.
 
     Attributes:
         action: index of the action that led here; None at the first step.

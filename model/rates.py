@@ -11,7 +11,7 @@ _LEAST_FLOOR = 1e-15  # of doors: one minus less than this is one, and what is c
 
 
 def is_number(value: object, least: float, most: float) -> bool:
-    """Whether it is a number in [least, most]; a truth value is none, nor is a NaN, a text or an array."""
+    """Whether a value is a number in [least, most]. Truth values, NaN, text and arrays are not."""
     kind = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
     return kind and bool(least <= value <= most)  # type: ignore[operator]
 
@@ -23,7 +23,7 @@ def is_whole(value: object, least: int, most: int) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Priors:
-    """Concentrations before any evidence.
+    """Dirichlet concentrations before any evidence.
 
     Attributes:
         sight: of each sight in a column of A_o. Small: a room has one sight, it is only unknown which; after

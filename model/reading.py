@@ -23,7 +23,7 @@ _SURROGATE = re.compile(r"[\ud800-\udfff]")
 
 
 def open_regular(path: str | PathLike[str]) -> BinaryIO:
-    """A file, opened for reading; a pipe would wait for ever, a device has no end.
+    """Open a regular file for reading. Pipes and devices are refused.
 
     Raises:
         CogmapError: it is no regular file.
@@ -40,7 +40,7 @@ def open_regular(path: str | PathLike[str]) -> BinaryIO:
 
 
 def read_file(path: str | PathLike[str], *, most: int = LARGEST) -> bytes:
-    """What a file has in it.
+    """The content of a file.
 
     Raises:
         CogmapError: it is no regular file, or has more than `most` bytes.
@@ -54,7 +54,7 @@ def read_file(path: str | PathLike[str], *, most: int = LARGEST) -> bytes:
 
 
 def unpack_gzip(path: str | PathLike[str], content: bytes, *, most: int = LARGEST) -> bytes:
-    """What was packed, a JSON text; it is gone through once before any of it is kept.
+    """Unpack a JSON text. Its size is checked before any of it is kept.
 
     Raises:
         CogmapError: it would be larger than `most` bytes.
@@ -72,7 +72,7 @@ def unpack_gzip(path: str | PathLike[str], content: bytes, *, most: int = LARGES
 
 
 def check_size(path: str | PathLike[str], size: int, most: int) -> None:
-    """Refuse what is too large. Raises CogmapError: it is."""
+    """Refuse input that is too large. Raises CogmapError."""
     if size > most:
         raise CogmapError(f"{path} has {size:,} bytes; such a file has {most:,} at most")
 
@@ -96,12 +96,12 @@ def parse_json(content: bytes | str) -> Any:
 
 
 def count_values(content: bytes) -> int:
-    """About how many values are in a JSON text, or a part of it; no fewer, but for one."""
+    """Roughly how many values a JSON text has; never fewer, but for one."""
     return sum(map(content.count, (b",", b"[", b"{", b":")))
 
 
 def check_values(count: int) -> None:
-    """Refuse more than can be kept in memory. Raises ValueError: there are."""
+    """Refuse more values than fit into memory. Raises ValueError."""
     if count > MOST_VALUES:
         raise ValueError(f"JSON of {count:,} values or so; {MOST_VALUES:,} are read at most")
 

@@ -22,7 +22,7 @@ _OURS = __name__.partition(".")[0] + "."
 
 @dataclass(frozen=True, slots=True)
 class Savepoint:
-    """How a model was between two steps."""
+    """The state of a model between two steps, to return to."""
 
     places: int  # how many there were
     growth: int  # events in its log of growth
@@ -34,7 +34,7 @@ class Savepoint:
 
 
 def savepoint(model: GenerativeModel) -> Savepoint:
-    """How the model is now; until `release` its logs drop nothing."""
+    """A savepoint of the model as it is now. Until `release` its logs drop nothing."""
     return Savepoint(
         len(model.places),
         len(model.growth),
@@ -46,13 +46,13 @@ def savepoint(model: GenerativeModel) -> Savepoint:
 
 
 def release(model: GenerativeModel) -> None:
-    """The savepoint is of no use any more: logs may drop what is long ago."""
+    """Give up a savepoint, so that the logs may drop what lies before it."""
     model.changes.release()
     model.growth.tidy()
 
 
 def go_back(model: GenerativeModel, point: Savepoint) -> None:
-    """Make the model what it was, whatever was done to it since, or half done.
+    """Restore the model to a savepoint, whatever was changed since.
 
     Raises:
         CogmapError: a part that is not of this library has what cannot be copied.

@@ -36,7 +36,7 @@ def take_slice(
     examined: bool,
     ahead: Successors | None,
 ) -> Slice:
-    """Snapshot of the factors over the support of the filtered joint.
+    """A snapshot of the factors over the support of the filtered joint.
 
     Args:
         model: the model as it is now.

@@ -7,7 +7,7 @@ from typing import final
 
 @final
 class Unseen:
-    """The kind of `UNSEEN`, of which there is one: a sensor saw nothing, which is no evidence and teaches nothing."""
+    """The type of `UNSEEN`: a reading that is no evidence and teaches nothing."""
 
     __slots__ = ()
 

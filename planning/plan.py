@@ -16,7 +16,7 @@ SHOWN = 12  # actions of a plan that its text has
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What was considered, what each policy was worth, and what was chosen."""
+    """The policies that were compared, their values, and the choice."""
 
     model: LocalModel  # the local model that the plan was made with
     policies: Ints  # `[P, L]` action indices

@@ -25,7 +25,7 @@ USUAL = Options()
 
 @dataclass(frozen=True, kw_only=True)
 class Planner:
-    """How an agent plans. Its parts are objects; a part of your own is a class with the methods of its base.
+    """How an agent plans. Its parts are objects; write your own as a subclass of the part's base class.
 
     Raises:
         CogmapError: a part is of another kind, or terms share a name.

@@ -11,7 +11,7 @@ from .terms import TERMS, Step, Term
 
 
 def evaluate_plain(model: LocalModel, policies: Policies, terms: Sequence[Term] = TERMS) -> ExpectedFreeEnergy:
-    """What `rollout.evaluate` computes, policy by policy and step by step.
+    """The same as `evaluate`, policy by policy and step by step in plain Python.
 
     Slow: meant for tests and for reading.
     """

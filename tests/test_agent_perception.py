@@ -19,6 +19,7 @@ NAN = float("nan")
 BAD: dict[str, tuple[Any, str]] = {
     "nothing": (None, "is a NoneType; give a mapping"),
     "a list": ([1, OPEN], "is a list; give a mapping"),
+    "what reset returns": (({"sight": 1, "open": OPEN}, {}), "is a tuple; give a mapping with keys .* the first alone"),
     "a string": ("sight open", "is a str; give a mapping"),
     "empty": ({}, "key 'sight' is missing"),
     "no sight": ({"open": OPEN}, "key 'sight' is missing"),

@@ -174,7 +174,8 @@ def test_the_paper_is_the_default() -> None:
     ids=str,
 )
 def test_parts_are_objects(parts: dict[str, Any]) -> None:
-    with pytest.raises(CogmapError, match=r"agent: (a sensor|\w+) is .*; give an object"):
+    (name,) = parts
+    with pytest.raises(CogmapError, match=rf"agent: (a sensor|\w+) is .*; give an object, such as {name}="):
         Agent(GRID, **parts)
 
 

@@ -180,7 +180,8 @@ BAD: dict[str, st.SearchStrategy[Any]] = {
     | st.floats()
     | NO_NUMBERS.filter(lambda value: not (isinstance(value, str) and value in GRID)),
     "outcome": NO_NUMBERS | NUMBERS,
-    "displacement": NO_VECTORS.filter(lambda value: np.shape(value) != (2,)),
+    "displacement": NO_VECTORS.filter(lambda value: np.shape(value) != (2,))
+    | st.sampled_from([(1e200, 0.0), ("1", "2"), (True, False), "ab", (0.0, float("nan"))]),
     "turn": NO_NUMBERS | st.just(np.inf),
     "moved": NO_NUMBERS.filter(lambda value: not isinstance(value, bool)) | NUMBERS,
     "cost": NO_NUMBERS | st.floats(max_value=-1e-9) | st.just(float("nan")),

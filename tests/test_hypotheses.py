@@ -10,7 +10,7 @@ import pytest
 from cogmap.inference.hypotheses import NOWHERE, Sensed, Tracker, TrackerOptions, WayScheme
 from cogmap.inference.hypotheses.branches import branches, leads
 from cogmap.inference.hypotheses.chances import Chances
-from cogmap.inference.hypotheses.evidence import probability, same_door, way_odds
+from cogmap.inference.hypotheses.evidence import before_reading, probability, same_door, way_odds
 from cogmap.inference.hypotheses.layered import Layered
 from cogmap.inference.hypotheses.pruning import alike
 from cogmap.inference.hypotheses.rates import (
@@ -39,6 +39,10 @@ from scipy.stats import beta
 STEPS = ((-1, 0), (1, 0), (0, -1), (0, 1))
 LATTICE = WayScheme(4, (1, 0, 3, 2), STEPS)
 UNPLACED = WayScheme(4, (1, 0, 3, 2))
+
+
+THREE_LABELS = "UUUUUUUUUURRRRRRRRRDDDDULLLLLURUURURRULLURRLLDDDDD"
+"""A walk on a torus."""
 
 
 class Grid:
@@ -200,6 +204,28 @@ def test_a_torus_is_found_to_close_on_itself():
     assert tracker.best.size == 9
     assert tracker.best.periods
     assert tracker.certainty() > 0.95
+
+
+def test_a_map_of_what_was_taken_for_one_too_early_is_begun_anew():
+    """On a torus of three labels four places explain the first steps, and they are wrong ever after."""
+    tracker = Tracker(LATTICE, TrackerOptions(most=10))
+    world = Grid([[(r + c) % 3 for c in range(4)] for r in range(4)], wrap=True, at=(0, 3))
+    walk(tracker, world, THREE_LABELS[:40])
+    assert tracker.best.size != 16
+    walk(tracker, world, THREE_LABELS[40:])
+    assert tracker.best.size == 16
+    assert tracker.best.periods[min(tracker.best.periods)] == ((4, 0), (0, 4))
+    assert min(tracker.best.places) > 0, "places are called by the time of their first visit"
+
+
+def test_ways_of_a_known_place_were_expected_as_those_of_a_new_one():
+    tracker = Tracker(LATTICE)
+    walk(tracker, Grid([[0, 1, 2, 3, 4, 5, 6]]), "RRRRRR")
+    h = tracker.best
+    up, first, last = 0, min(h.places), max(h.places)
+    expected = {k: before_reading(h, k, h.places[k], up, h.places.__getitem__, int) for k in (first, last)}
+    assert expected[first] == h.open(up)
+    assert expected[last] < 0.8 * h.open(up)
 
 
 def test_places_are_recognised_without_poses():

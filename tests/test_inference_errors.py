@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from cogmap.agent import Agent
 from cogmap.inference import ImpossibleEvidence, infer, most_probable
 from cogmap.model import CogmapError, FactorGraph
 from test_inference_graphs import ladder
@@ -110,6 +111,13 @@ def test_a_costly_time_order_falls_back_to_minimum_fill():
     order = ["hub"] + [f"leaf{i}" for i in range(12)]
     with pytest.raises(CogmapError, match="give another `order`"):
         infer(graph, order=order)
+
+
+@pytest.mark.parametrize("ask", [infer, most_probable])
+@pytest.mark.parametrize("graph", [Agent({"stay": (0,)}), None, {"x": (0, 1)}], ids=["an agent", "None", "a dict"])
+def test_what_is_no_graph_is_refused(ask, graph):
+    with pytest.raises(CogmapError, match=r"is no factor graph; give one, such as agent\.graph"):
+        ask(graph)
 
 
 def test_the_posterior_does_not_follow_later_additions():

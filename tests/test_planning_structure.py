@@ -34,6 +34,7 @@ class Corridors:
     here: Sequence[Hashable]
     rows: Sequence[Sequence[Hashable]]
     seen: int = 10**6
+    moves: Sequence[int] = (BACK, ON)
     asked: list[int] = field(default_factory=list[int])
 
     def ahead(self, h: int, place: Hashable, action: int) -> Hashable | None:

@@ -24,7 +24,7 @@ LEAST = 0.005  # places that are less probable are not marked
 def plot_belief(
     belief: Mapping[str, float], *, true: str | None = None, threshold: float | None = None, **where: Unpack[Where]
 ) -> Axes:
-    """A bar for each place, as high as it is probable.
+    """One bar per place, as high as the place is probable.
 
     Args:
         belief: Q(s) by what each place is called.
@@ -59,7 +59,7 @@ def plot_belief_bars(
     threshold: float | None = None,
     **where: Unpack[Where],
 ) -> Axes:
-    """A bar for each place, the most probable on top; those after the first `most` are added up.
+    """One bar per place, the most probable at the top. All after the first `most` are summed.
 
     Args:
         belief: the agent's, or Q(s) by number of the place.
@@ -96,7 +96,7 @@ def plot_belief_bars(
 def plot_belief_map(
     belief: Places, map_: CognitiveMap, *, chart: Chart | None = None, start: Any = (0, 0), **where: Unpack[Where]
 ) -> Axes:
-    """The map, and behind each place a disc as strong as it is probable that the agent is there.
+    """The map, with a disc behind each place that is as strong as the place is probable.
 
     Args:
         belief: the agent's, or Q(s) by number of the place.

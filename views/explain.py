@@ -13,7 +13,7 @@ from .speaking import spoken
 
 
 def explain(agent: Agent, *, most: int = 5) -> Explanation:
-    """The last choice of an agent: what it believed, what it weighed, and what ruled the others out.
+    """Explain the last choice of an agent: its belief, its policies, and why the others were not taken.
 
     Args:
         agent: after a step; one that was loaded works its last plan out again.

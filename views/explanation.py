@@ -87,7 +87,7 @@ class FirstAction:
 
 @dataclass(frozen=True, slots=True)
 class Explanation:
-    """The last choice of an agent; `str` and `text` tell it in words."""
+    """The explanation of an agent's last choice; `str` and `text` give it in words."""
 
     step: int  # the time step of the choice
     terms: tuple[Term, ...]  # of G

@@ -15,7 +15,7 @@ WIDTH = 5.5  # of a plot, inches
 
 
 def world_figure(chart: Chart, *, title: str | None = None) -> Figure:
-    """A world, large enough to read."""
+    """A picture of a world, large enough to read."""
     from matplotlib.figure import Figure
 
     cells = world_picture(chart).cells.values()
@@ -34,7 +34,7 @@ def explore_figure(
     title: str | None = None,
     scene: Scene | None = None,
 ) -> Figure:
-    """The world with the path, the map learned, F and G over time; of a body, what it walked through comes first.
+    """A figure of the world with the path, the learned map, and F and G over time. With a body, its scene comes first.
 
     Args:
         chart: the true map: `world.chart`, or a maze.

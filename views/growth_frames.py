@@ -35,7 +35,7 @@ class GrowthFrame:
 
 
 class GrowthFrames:
-    """Pictures of an agent's map, one a step; what did not change from one to the next is kept once.
+    """Pictures of an agent's map, one per step. Only what changes between steps is stored.
 
     Example: `frames = GrowthFrames()`, then `frames.add(agent)` after each step, and `frames.save_gif("map.gif")`.
     The `frames` so far can be read.

@@ -31,7 +31,7 @@ Row = tuple[int, tuple[tuple[int, float], ...]]
 
 @dataclass(slots=True)
 class MapPicture:
-    """A map as it is shown at some step; `apply` takes it to the next."""
+    """The map as shown at one step; `apply` moves it to the next step."""
 
     motions: Motions  # the actions
     sights: Domain | Sequence[Hashable]  # the labels, by number

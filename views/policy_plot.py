@@ -23,7 +23,7 @@ Paths = Mapping[tuple[tuple[float, ...], ...], float]
 def policy_paths(
     plan: Plan, map_: CognitiveMap, *, start: Sequence[float] = (0, 0), least: float = 1e-3
 ) -> dict[tuple[Cell, ...], float]:
-    """The cells that the policies lead along if every way is as the map has it, the most probable path first.
+    """The cells that each policy leads through on the map, with the most probable path first.
 
     Args:
         plan: of the agent.
@@ -50,7 +50,7 @@ def policy_paths(
 
 
 def plot_policies(paths: Paths, **where: Unpack[Where]) -> Axes:
-    """Imagined paths, each way as strong as it is probable that it will be walked, with a dot where paths end.
+    """Imagined paths. Each link is as strong as the agent will probably walk it, and a dot marks where paths end.
 
     They are grey over a maze, and blue, beneath the places, over a map.
 

@@ -12,7 +12,7 @@ from .axes import Axes
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """What is seen from above.
+    """A picture of a world from above.
 
     Raises:
         CogmapError: the arrays have other shapes.

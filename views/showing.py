@@ -10,7 +10,7 @@ from .replay import replay_html
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A page in a frame of its own: it can reach nothing of the notebook around it."""
+    """A page in an isolated frame, which cannot reach the notebook around it."""
 
     page: str  # the page, as `replay_html` makes it
     height: int  # of the frame, in pixels
@@ -25,7 +25,7 @@ class Shown:
 
 
 def show(recording: Recording, *, height: int = 720) -> Shown:
-    """The replay page of a recording, for a notebook to show as the last value of a cell.
+    """The replay page of a recording, to be shown as the last value of a notebook cell.
 
     Raises:
         CogmapError: it is no recording, a height below 100, or positions of more than two dimensions.

@@ -18,7 +18,7 @@ _HATCHES = ("", "", "...", "///", "\\\\\\", "xxx", "++", "oo")
 
 
 def plot_terms(plan: Plan, *, most: int = 8, **where: Unpack[Where]) -> Axes:
-    """The policies with the least G, best on top, each as bars of its terms in nats; their sum is the diamond, G.
+    """The policies with the least G, best at the top, as bars of their terms in nats. The diamond is their sum, G.
 
     What counts against G, such as information and utility, goes to the left, costs go to the right. The chosen policy
     is marked by ▶; it comes last where others are better.

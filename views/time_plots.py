@@ -17,7 +17,7 @@ FEW = 60  # steps that have a dot each
 
 
 def plot_certainty(trace: Trace, *, threshold: float | None = None, **where: Unpack[Where]) -> Axes:
-    """Q of the most probable place at every step, and the doubt whether the belief went astray before.
+    """Q of the most probable place at each step, and the doubt that the earlier belief was wrong.
 
     Steps at which the agent found itself moved, or took back what it had learned, are marked. `threshold` is the
     certainty from which the agent learns (`settings.certainty`), drawn as a line.
@@ -41,7 +41,7 @@ def plot_certainty(trace: Trace, *, threshold: float | None = None, **where: Unp
 
 
 def plot_surprise(trace: Trace, **where: Unpack[Where]) -> Axes:
-    """-log P(o_t, c_t | the past) of every step in nats, and the parts of F that it is the sum of (eq. 3).
+    """-log P(o_t, c_t | the past) at each step in nats, and the parts of F that add up to it (eq. 3).
 
     The bars are complexity and -accuracy, one on the other; at the exact posterior they are as high as the surprise.
     Steps at which the agent found itself moved, or took back what it had learned, are marked.
@@ -88,7 +88,7 @@ def plot_free_energy(trace: Trace, **where: Unpack[Where]) -> Axes:
 
 
 def plot_expected_free_energy(trace: Trace, **where: Unpack[Where]) -> Axes:
-    """G of the chosen policy at every step in nats (eqs. 5 and 8), and the terms it is the sum of.
+    """G of the chosen policy at each step in nats (eqs. 5 and 8), and its terms.
 
     Terms that are zero at every step are left out.
 

@@ -23,7 +23,7 @@ class NoMazeError(WorldError, AttributeError):
 
 
 class PlaceEnv(gym.Env[Observation, Action]):
-    """A world whose truth is a chart. Reward is 0.0, and an episode never ends.
+    """A world whose true map is a chart. The reward is 0.0, and an episode never ends.
 
     An action whose way is shut, or is none, leaves the agent where it is. Subclasses say what is sensed (`sense`) and
     what is told of a move (`moved`).

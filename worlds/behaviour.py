@@ -6,7 +6,7 @@ from .protocol import Chart
 
 
 def behaviour(chart: Chart, *, doors: bool = True) -> dict[Any, int]:
-    """A number for each place, the same for places from which every sequence of actions shows the same.
+    """A number for each place, equal for places that no sequence of actions can tell apart.
 
     Partition refinement (Moore 1956): places that look alike are told apart where an action leads to places that
     were told apart.
@@ -33,7 +33,7 @@ def behaviour(chart: Chart, *, doors: bool = True) -> dict[Any, int]:
 
 
 def distinguishable(chart: Chart, *, doors: bool = True) -> bool:
-    """Whether all places differ in behaviour."""
+    """Whether any two places can be told apart by some sequence of actions."""
     return len(set(behaviour(chart, doors=doors).values())) == len(chart.places)
 
 

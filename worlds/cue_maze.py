@@ -21,7 +21,7 @@ _OTHER = {"left": "right", "right": "left"}
 
 
 class CueMaze(gym.Env[Observation, Any]):
-    """A trial begins in the centre. From there and from the cue one may go anywhere, from an arm nowhere.
+    """The T maze with a cue. A trial begins in the centre; centre and cue lead everywhere, the arms nowhere.
 
     In which arm the reward is, the context, is drawn at each reset; each look at the cue points there as often as it is
     right. Who enters the right arm is rewarded, once. After Friston et al., Cognitive Neuroscience 2015, 6, 187.
@@ -108,7 +108,7 @@ def points(arm: str) -> str:
 
 
 def best_cue_action(place: str, seen: int, *, right: float, moves: int) -> str:
-    """What brings most rewards, exactly, with so many moves left: a name of `CueMaze.motions`.
+    """The action that brings the highest expected reward in the remaining moves, exactly.
 
     Args:
         place: where the agent is.

@@ -2,7 +2,7 @@
 
 
 class WorldError(ValueError):
-    """Bad input to a world: the message says what, where and how to mend it.
+    """Bad input to a world. The message says what is wrong, where, and how to mend it.
 
     It is one line, and what cannot be printed, such as a control character of a label or of the name of a file, is
     written as in Python.

@@ -1,7 +1,5 @@
 """Noise in a world, as a Gymnasium wrapper."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
@@ -16,7 +14,7 @@ from .protocol import CanClose, CanDisplace, HasChart, Observation, World, offer
 from .spaces import Labels
 
 NOISES: Mapping[str, float] = MappingProxyType(
-    {"sight": 1.0, "door": 1.0, "slip": 1.0, "fail": 1.0, "moved": 1.0, "odometry": 1.0, "heading": 180.0}
+    {"sight": 1.0, "door": 1.0, "slip": 1.0, "fail": 1.0, "moved": 1.0, "odometry": 1.0, "heading": 180.0, "miss": 1.0}
 )
 """The kinds of noise, and the most that each may be."""
 
@@ -24,7 +22,7 @@ _NO_SENSORS = ("open", "ways", "bearings", "lengths", "displacement")
 
 
 class NoisyWorld(gym.Wrapper[Observation, Any, Observation, Any]):
-    """A world that errs. Each kind of noise has a stream of draws of its own, which `reset(seed=)` seeds.
+    """A wrapper that adds noise to a world. Each kind of noise has its own random stream, seeded by `reset(seed=)`.
 
     What really happened is in `info` alone: `taken`, the action carried out; `failed` and `moved`, truth values.
 
@@ -33,6 +31,7 @@ class NoisyWorld(gym.Wrapper[Observation, Any, Observation, Any]):
         noise: rates by kind, 0 where not given.
             `sight`: a label is drawn evenly from the other labels of its sensor.
             `door`: each reading of a way flips (`stay` does not).
+            `miss`: an open way is read as shut.
             `slip`: another action than the one given is carried out, drawn evenly from the others.
             `fail`: the action is not carried out.
             `moved`: then the agent is put into a place drawn evenly from those that are not closed.
@@ -110,15 +109,17 @@ class NoisyWorld(gym.Wrapper[Observation, Any, Observation, Any]):
         if self.motions.local:
             seen["ways"] = {way: self._read(is_open) for way, is_open in seen["ways"].items()}
             self._actions = len(self.motions.names) + len(seen["ways"])
-        elif "door" in self.noise:
-            flips = np.array([name != "stay" and self._happens("door") for name in self.motions.names])
-            seen["open"] = np.asarray(seen["open"], dtype=np.bool_) ^ flips
+        elif self.noise.keys() & {"door", "miss"}:
+            pairs = zip(self.motions.names, seen["open"], strict=True)
+            read = [is_open if name == "stay" else self._read(is_open) for name, is_open in pairs]
+            seen["open"] = read if None in read else np.array(read, dtype=np.bool_)
         if self._measured is not None:
             seen["displacement"] = self._measured.copy()
         return seen
 
     def _read(self, is_open: bool | None) -> bool | None:
-        return None if is_open is None else is_open != self._happens("door")
+        flipped, missed = self._happens("door"), self._happens("miss")
+        return None if is_open is None else bool(is_open) != flipped and not missed
 
     def _odometry(self, observation: Observation) -> Observation:
         """The same; the displacement is measured: turned, then blurred."""
@@ -141,8 +142,8 @@ class NoisyWorld(gym.Wrapper[Observation, Any, Observation, Any]):
 
     def _check(self) -> None:
         keys = set(_observed(self.env))
-        needs = {"door": {"ways" if self.motions.local else "open"}, "odometry": {"displacement"}}
-        needs["heading"] = needs["odometry"]
+        ways = {"ways" if self.motions.local else "open"}
+        needs = {"door": ways, "miss": ways, "odometry": {"displacement"}, "heading": {"displacement"}}
         for kind in self.noise:
             if missing := needs.get(kind, set()) - keys:
                 raise WorldError(f"noise {kind!r} errs in {missing.pop()!r}, and this world does not tell it")

@@ -51,13 +51,13 @@ def covering_walk(chart: Chart, start: Place, *, limit: int = LIMIT) -> tuple[An
 
 
 def covering_steps(chart: Chart, start: Place, *, limit: int = LIMIT) -> int | None:
-    """The steps of `covering_walk`; None where it is out of reach."""
+    """The number of steps of `covering_walk`; None if that is too costly to compute."""
     walk = covering_walk(chart, start, limit=limit)
     return None if walk is None else len(walk) - 1
 
 
 def tour(chart: Chart, start: Place, *, by: str = "steps", rounds: int = 500, seed: int = 0) -> tuple[Any, ...] | None:
-    """A short walk from `start` that visits every place of a world that is known: the best one found.
+    """The shortest walk that was found from `start` through all places of a known world.
 
     An open travelling salesman's path over all shortest distances: nearest neighbours first, then segments turned
     (2-opt) and moved (Or-opt) while that helps, with ways that cost more one way than the other as they are; then

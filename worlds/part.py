@@ -14,7 +14,7 @@ from .protocol import Chart, Place
 
 @dataclass(frozen=True, eq=False)
 class ChartPart:
-    """Some places of a chart and the ways among them; ways to others are none. Itself a chart."""
+    """Some places of a chart and the ways among them. It is a chart itself."""
 
     whole: Chart  # the chart
     places: tuple[Place, ...]  # those of the part, in the order in which they were given

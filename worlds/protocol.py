@@ -17,7 +17,7 @@ Offer = TypeVar("Offer")
 
 @runtime_checkable
 class World(Protocol):
-    """A `gymnasium.Env` with motions; the truth about it is in `info` alone."""
+    """A `gymnasium.Env` with motions. The truth is in `info` alone."""
 
     @property
     def motions(self) -> Motions:
@@ -91,7 +91,7 @@ class HasChart(Protocol):
 
 @runtime_checkable
 class CanDisplace(Protocol):
-    """A world in which the agent can be moved without a word."""
+    """A world in which the agent can be silently moved."""
 
     def displace(self, place: Place) -> Observation:
         """Move the agent to `place`, and return what it senses there."""
@@ -134,7 +134,7 @@ class CanClose(Protocol):
 
 
 def offered(world: Any, kind: type[Offer], what: str) -> Offer:
-    """`world` or the environment inside its wrappers, whichever offers `kind` first, the outermost first.
+    """The outermost of `world` and its wrapped environments that offers `kind`.
 
     Raises:
         WorldError: none does; `what` is the subject, such as "kidnapping".

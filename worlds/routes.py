@@ -13,7 +13,7 @@ BY = ("steps", "length")
 
 
 class Routes:
-    """The places next to each place, looked up when they are asked for.
+    """The neighbours of each place, looked up on demand.
 
     Args:
         chart: the true map.

@@ -13,12 +13,11 @@ from .motions import Motions
 from .protocol import HasChart, Observation, World, offered
 from .spaces import PerAction
 
-_LISTED = ("bearings", "lengths")
-"""What is told of each way."""
+_LISTED = ("bearings", "lengths")  # What is told of each way
 
 
 class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):
-    """A world in which no sensor tells whether a way is open.
+    """Takes the sensor of ways away from a world.
 
     Observations have no key `open`; where ways belong to the place they are listed, each with None (not looked at).
     """
@@ -45,7 +44,7 @@ class UnseenWays(gym.ObservationWrapper[Observation, Any, Observation]):
 
 
 class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
-    """A world whose ways belong to the place, for agents whose actions are those of the whole world.
+    """Gives a world with local ways a fixed list of actions: action i takes the i-th way that is listed.
 
     Action 0 stays, action i takes the i-th way that is listed; a place with fewer ways has the others shut.
     Observations have `open` instead of `ways`; `bearings` and `lengths`, where they are told, list one an action,
@@ -105,7 +104,7 @@ class ListedWays(gym.Wrapper[Observation, Any, Observation, Any]):
 
 
 class StateWorld(gym.Wrapper[Observation, Any, Any, Any]):
-    """A world made of an environment that observes and acts by numbers, such as `FrozenLake-v1`.
+    """Makes a world from an environment with numbered states and actions, such as `FrozenLake-v1`.
 
     The number observed is the sight, and the true place in `info["place"]`. Ways are not sensed. `stay` is added if no
     motion stays: it is not carried out, and the last observation comes again.

@@ -14,7 +14,7 @@ from .settings import NAVIGATION, CscgSettings, one_of, whole
 
 
 class CscgAgent:
-    """Learns a clone-structured model of its whole history again and again, and plans with it.
+    """Learns a clone-structured model from its whole history every few steps, and plans with it.
 
     George et al. 2021, Clone-structured graph representations enable flexible learning and vicarious evaluation of
     cognitive maps, Nat. Commun. 12:2392. It does not sense doors: random moves are uniform over `tries`, those into

@@ -25,7 +25,7 @@ LAPSE = Parameter(
 
 @dataclass(frozen=True, eq=False)
 class Prepared:
-    """Choices as a model reads them: all that does not depend on its parameters."""
+    """Choices prepared for a model: everything that does not depend on its parameters."""
 
     choices: Choices
     open: NDArray[np.bool_]

@@ -3,6 +3,7 @@
 from contextlib import nullcontext
 from dataclasses import asdict
 from functools import partial
+from operator import itemgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated, Any
@@ -82,7 +83,9 @@ def _rows(source: Any, models: Any, how: Any, executor: Any, kept: Path | None) 
     tasks, rows = {task: task for task in tasks_of(models, how)}, list[dict[str, Any]]()
     made, fitted = {"walks": source.digest, **asdict(how)}, partial(run_task, source=source, how=how)
     with nullcontext() if kept is None else Ledger(kept) as ledger:
-        coming = kept_rows(fitted, tasks, dict[str, Any], ledger, executor, made, key=_task, write=dict[str, Any])
+        coming = kept_rows(
+            fitted, tasks, dict[str, Any], ledger, executor, made, key=itemgetter("model", "fold"), write=dict[str, Any]
+        )
         if any(model.needs_agent for model in models):
             with counting("following", len(source.routes)) as one_more:
                 for _ in completed(source.follow, range(len(source.routes)), executor=executor):
@@ -92,10 +95,6 @@ def _rows(source: Any, models: Any, how: Any, executor: Any, kept: Path | None) 
                 rows.append(row)
                 one_more()
     return rows
-
-
-def _task(row: dict[str, Any]) -> Any:
-    return row["model"], row["fold"]
 
 
 def _show(result: dict[str, Any]) -> None:

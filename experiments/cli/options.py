@@ -21,7 +21,7 @@ Noise = Annotated[
     list[str] | None,
     typer.Option(
         metavar="KIND=RATE",
-        help="What goes wrong, how often: sight, door, slip, fail or moved (odometry, heading: by how much); "
+        help="What goes wrong, how often: sight, door, miss, slip, fail or moved (odometry, heading: by how much); "
         "of a body in MiniGrid pixels, gain or slips. Several.",
     ),
 ]

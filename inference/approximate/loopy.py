@@ -56,7 +56,7 @@ class Loopy:
 
 @dataclass(frozen=True, slots=True)
 class LoopyReport:
-    """How loopy belief propagation went."""
+    """How loopy belief propagation converged."""
 
     converged: bool  # whether it settled; where it did not, its numbers mean little
     iterations: int  # rounds that it took

@@ -66,7 +66,7 @@ class Sampling:
 
 @dataclass(frozen=True, slots=True)
 class SamplingReport:
-    """How good the samples are."""
+    """How good the weighted samples are."""
 
     samples: int  # number of samples
     # number of equally weighted samples that are worth as much; below some hundred the standard errors cannot

@@ -27,9 +27,6 @@ SQUARES = 0.1
 FEW = 512
 """Places up to which all are looked at when the agent is told that it was moved."""
 
-ASLEEP = -2
-"""Stands for any way that is not thought of."""
-
 FAINT = 18.0
 """Nats below which a place of a crowd is let go."""
 
@@ -233,10 +230,8 @@ class Walker:
 
 def slips_into_staying(h: Hypothesis, given: int, stays: Mapping[int, float]) -> float:
     """P(it stayed | another way than the one given was taken), by how each of those that are thought of keeps it."""
-    asleep = h.scheme.count - len(stays)
     lost = sum(h.slip(given, way) * p for way, p in stays.items() if way != given)
-    lost += 0.0 if given == NOWHERE else h.slip(given, NOWHERE)
-    return lost + (asleep * h.slip(given, ASLEEP) if asleep else 0.0)
+    return lost if given == NOWHERE else lost + h.slip(given, NOWHERE)
 
 
 def unseen(h: Hypothesis) -> float:

@@ -1,7 +1,5 @@
 """The short way of a step that leaves no doubt: one branch, where bounds show that no other can survive."""
 
-from __future__ import annotations
-
 from math import exp, log
 
 from .branches import Alternative, Lead, Walker, leads, look_alikes

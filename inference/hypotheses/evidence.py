@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from math import exp, log
 
 from .chances import Chances
@@ -29,10 +29,8 @@ def log_likelihood(h: Hypothesis, number: int, sensed: Sensed) -> float:
 
 def was_rebuilt(h: Hypothesis, number: int, place: Place, sensed: Sensed) -> bool:
     """Whether the ways of a place more probably all are others than they were, by how they are read."""
-    against = sum(
-        reading is not None and way.net * (reading - 0.5) < 0.0
-        for way, reading in zip(place.ways, sensed.ways, strict=True)
-    )
+    ways, looks = place.ways, sensed.ways
+    against = sum((look := looks[way]) is not None and ways[way].net * (look - 0.5) < 0.0 for way in h.awake)
     if against < 2:
         return False
     rebuilt, q = h.chances.rebuilt, _ways_as_they_were(h, number, place, sensed)
@@ -229,10 +227,33 @@ def _as_before(h: Hypothesis, source: int, way: int) -> float:
     return probability(way_odds(h, source, h.places[source], way))
 
 
+def before_reading(
+    h: Hypothesis, number: int, place: Place, way: int, view: Callable[[int], Place], find: Callable[[int], int]
+) -> float:
+    """P(open) of a way of a known place before anything was read of it: what `log_predictive` gave it.
+
+    Args:
+        h: the hypothesis.
+        number, place: the place.
+        way: the way.
+        view: the record of a place.
+        find: the place that another one is taken for.
+    """
+    source = max((one for source, _ in place.into if (one := find(source)) < number), default=NOWHERE)
+    if source == NOWHERE:
+        return h.open(way)
+    chances = h.chances
+    there = probability(
+        chances.odds + max(min(view(source).ways[way].net * chances.unit, chances.limit), -chances.limit)
+    )
+    return chances.alike * there + (1.0 - chances.alike) * h.open(way)
+
+
 def count_alike(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> None:
     """What the ways of a place never seen say of how often they are as those of the place it was entered from."""
     chances, counts = h.chances, h.counts
-    for way, reading in enumerate(sensed.ways):
+    for way in h.awake:
+        reading = sensed.ways[way]
         if reading is None or way == back or (key is not None and _known_beyond(h, key, way) is not None):
             continue
         before = chances.alike * reading_probability(chances, _as_before(h, source, way), reading)

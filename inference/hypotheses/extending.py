@@ -252,7 +252,8 @@ def _turn(h: Hypothesis, before: Place, ways: Sequence[Way]) -> None:
     """A door that was found to have changed has changed on its other side too."""
     if h.scheme.inverse is None:
         return
-    for index, (old, new) in enumerate(zip(before.ways, ways, strict=True)):
+    for index in h.awake:
+        old, new = before.ways[index], ways[index]
         if old.net * new.net < 0.0 and (other := h.neighbour(before, index)) != NOWHERE:
             there, back = h.places[other], h.scheme.inverse[index]
             if there.ways[back].net * new.net < 0.0:
@@ -261,10 +262,10 @@ def _turn(h: Hypothesis, before: Place, ways: Sequence[Way]) -> None:
 
 def _count_looks(h: Hypothesis, sensed: Sensed) -> None:
     """What a place never seen before says of how often each way is open."""
-    for way, reading in enumerate(sensed.ways):
-        if reading is not None:
-            opened, blocked = h.looks[way]
-            h.looks[way] = (opened + reading, blocked + 1.0 - reading)
+    h.looks = [
+        looks if reading is None else (looks[0] + reading, looks[1] + 1.0 - reading)
+        for looks, reading in zip(h.looks, sensed.ways, strict=True)
+    ]
 
 
 def seen(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -> SightCounts:
@@ -344,7 +345,7 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
         for label, p in label_shares(chances, sensor, counts).items():
             misread += counts[label] * (1.0 - p)
             read += counts[label] * p
-    stayed = _stayed(h, number, place) if any(way.stays for way in place.ways) else (0.0, 0.0)
+    stayed = _stayed(h, number, place) if any(place.ways[way].stays for way in h.awake) else (0.0, 0.0)
     share = Share(opened, blocked, wrong, right, misread, read, beside, shut, undone, one_way, *stayed)
     return Place(place.sights, place.ways, place.frame, place.position, place.recent, place.into, share)
 

@@ -39,7 +39,7 @@ Label = tuple[int, int]
 
 
 class Hypothesis:
-    """A map, where the agent is in it, and what its rates have counted.
+    """A hypothesis: a map, the agent's place in it, and the counts of its rates.
 
     Attributes:
         scheme: what is known of ways beforehand.
@@ -146,7 +146,7 @@ class Hypothesis:
 
     def slip(self, given: int, taken: int) -> float:
         """P(a way is taken | another than the one given is): a Dirichlet a way given, that all places share."""
-        count, inverse = self.scheme.count, self.scheme.inverse
+        count, inverse = max(len(self.awake), 1), self.scheme.inverse  # the others are never taken
         if not (slips := self.slips.get((given, given))):
             return 1.0 / count
         turns = taken >= 0 <= given and inverse is not None and inverse[given] == taken != given

@@ -20,7 +20,7 @@ def tracker_knowing(
     labels: Sequence[int],
     options: TrackerOptions | None = None,
 ) -> Tracker:
-    """A tracker with one hypothesis: these places, by number, what was read there, and where their ways lead.
+    """A tracker with one hypothesis, built from known places: their readings and where their ways lead.
 
     Args:
         scheme: the ways.

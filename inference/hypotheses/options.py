@@ -16,7 +16,7 @@ TINY = 1e-15
 
 @dataclass(frozen=True, slots=True)
 class TrackerOptions:
-    """How many hypotheses are kept.
+    """Options of the tracker: how many hypotheses it keeps.
 
     Attributes:
         most: at most so many.

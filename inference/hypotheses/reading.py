@@ -44,7 +44,7 @@ def label_probabilities(h: Hypothesis, number: int, *, sensor: int = 0) -> dict[
 
 
 def whereabouts(h: Hypothesis) -> dict[int, float]:
-    """P(place) of where the agent is under one hypothesis: one place, but where that is open in its map."""
+    """P(place) of the agent under one hypothesis; more than one place only if the hypothesis leaves it open."""
     if h.crowd is None:
         return {h.here: 1.0}
     return {number: exp(weight) for number, weight in h.crowd.items()}

@@ -11,7 +11,7 @@ from .extending import shared, unlink, with_way
 from .hypothesis import Hypothesis
 from .rates import ELSEWHERE, MOVED, UNDONE
 from .records import NOWHERE, Place, Position, Way
-from .weighing import door_evidence, rate_gain
+from .weighing import doors, rate_gain
 
 LARGEST = 256
 """Places that are laid out anew at most."""
@@ -51,7 +51,7 @@ def recharted(h: Hypothesis, number: int, *, floor: float) -> Iterator[Hypothesi
     inverse = h.scheme.inverse
     if h.scheme.displacements is None or inverse is None:
         return
-    for way in range(h.scheme.count):
+    for way in h.awake:
         to = h.places[number].ways[way].to
         if to == NOWHERE or not _off(h, Link(number, way, to)):
             continue
@@ -140,7 +140,8 @@ def _walked_once(h: Hypothesis, one: int, other: int) -> Link | None:
     assert h.scheme.inverse is not None
     found: list[Link] = []
     for number, to in ((one, other), (other, one)):
-        for index, way in enumerate(h.places[number].ways):
+        for index in h.awake:
+            way = h.places[number].ways[index]
             if way.to == to and way.walks:
                 if way.walks > 1 or h.places[to].ways[h.scheme.inverse[index]].to != number:
                     return None
@@ -180,7 +181,7 @@ def _otherwise(h: Hypothesis, link: Link, part: Part, *, cut: bool, floor: float
         _cut(other, link)
     beside = {k for k in part.numbers | {link.number, link.to} for k in _beside(h, k) | _beside(other, k)}
     touched = sorted(beside | part.numbers | {link.number, link.to})
-    other.weight = h.weight + gain + _doors(other, touched) - _doors(h, touched)
+    other.weight = h.weight + gain + doors(other, touched) - doors(h, touched)
     if other.weight < floor:
         return None
     for number in touched:
@@ -259,22 +260,4 @@ def _cut(h: Hypothesis, link: Link) -> None:
 
 def _beside(h: Hypothesis, number: int) -> set[int]:
     place = h.places[number]
-    return {to for way in range(h.scheme.count) if (to := h.neighbour(place, way)) != NOWHERE}
-
-
-def _doors(h: Hypothesis, numbers: list[int]) -> float:
-    """log P(readings of the ways of some places), those of both sides of a door together."""
-    inverse, done, total = h.scheme.inverse, set[tuple[int, int]](), 0.0
-    assert inverse is not None
-    for number in numbers:
-        place = h.places[number]
-        for index, way in enumerate(place.ways):
-            other, its = h.neighbour(place, index), 0.0
-            if (number, index) in done:
-                continue
-            if other != NOWHERE and (back := h.places[other].ways[inverse[index]]).to in (NOWHERE, number):
-                its = back.net
-                done.add((other, inverse[index]))
-            if way.net or its:
-                total += door_evidence(h.chances, way.net, its, open_=h.open(index))
-    return total
+    return {to for way in h.awake if (to := h.neighbour(place, way)) != NOWHERE}

@@ -33,7 +33,7 @@ class Way(NamedTuple):
 
 
 class Share(NamedTuple):
-    """What a place adds to the counts of the rates: expected numbers, given what is believed of it.
+    """What one place contributes to the counts of the rates, as expected numbers.
 
     `stayed` are the times that the agent did not get through a way that was open, and `strayed` the share of other
     actions that would have kept it there, summed over these.

@@ -8,14 +8,18 @@ from dataclasses import replace
 from math import exp, log
 
 from .branches import leads, slips_into_staying
-from .evidence import log_likelihood, probability, way_odds
+from .evidence import before_reading, log_likelihood, probability, way_odds
 from .hypothesis import Hypothesis
+from .rates import MOVED
 from .records import NOWHERE, RECENT, Place, Way
 from .scheme import Sensed
 from .weighing import seating
 
 MARGIN = 3
 """Steps before and after a visit that are replayed with it."""
+
+OFTEN = 0.02
+"""Rate of silent moves from which on a place that looks like another may be that one, to which the agent was moved."""
 
 SELDOM = 8
 """Visits from which on a place is not doubted any more; the times of fewer are all known."""
@@ -27,6 +31,9 @@ LARGEST = 64
 class History:
     """The last percepts, by time.
 
+    Attributes:
+        norms: (time, nats): how probable each step was after those before it, with all that was thought of by then.
+
     Args:
         length: how many are read; one more is kept, so that the last one can be taken back.
     """
@@ -34,15 +41,30 @@ class History:
     def __init__(self, length: int = 512) -> None:
         self.length = length
         self._percepts: deque[tuple[int, Sensed]] = deque(maxlen=length + 1)
+        self.norms: deque[tuple[int, float]] = deque(maxlen=length + 1)
 
     def add(self, sensed: Sensed, time: int) -> None:
         """Append one step; what neither labels nor ways say is left out."""
         self._percepts.append((time, sensed if sensed.others is None else replace(sensed, others=None)))
 
+    def weigh(self, norm: float) -> None:
+        """Note how probable the last step was."""
+        self.norms.append((self.end - 1, norm))
+
+    def revalue(self, more: float) -> None:
+        """All steps together are by so many nats more probable than they were thought."""
+        time, norm = self.norms.pop()
+        self.norms.append((time, norm + more))
+
+    def norm(self, first: int) -> float:
+        """log P(steps from `first` on | those before)."""
+        return sum(norm for time, norm in self.norms if time >= first)
+
     def cut(self, end: int) -> None:
         """Forget what was sensed at `end` or later."""
-        while self._percepts and self._percepts[-1][0] >= end:
-            self._percepts.pop()
+        for kept in (self._percepts, self.norms):
+            while kept and kept[-1][0] >= end:
+                kept.pop()
 
     @property
     def end(self) -> int:
@@ -68,7 +90,11 @@ def doubted(h: Hypothesis, number: int, history: History) -> set[int]:
         return set()
     if fragment := _fragment(h, number, history):
         return fragment if number == min(fragment) else set()
-    if not _seldom(h, number, history) or not _misfit(h, number):
+    if not _seldom(h, number, history):
+        return set()
+    if h.chances.moved > OFTEN and _has_twin(h, place):
+        return {number}
+    if not _misfit(h, number):
         return set()
     found, queue = {number}, [number]
     for one in queue:
@@ -86,7 +112,7 @@ def _fragment(h: Hypothesis, number: int, history: History) -> set[int]:
         place = h.places[one]
         if not _long_ago(h, place, history) or len(place.recent) >= RECENT or len(found) > LARGEST:
             return set()
-        ahead = [h.neighbour(place, way) for way in range(h.scheme.count)]
+        ahead = [h.neighbour(place, way) for way in h.awake]
         for other in (*ahead, *(source for source, _ in place.into)):
             if other != NOWHERE and other not in found:
                 found.add(other)
@@ -97,7 +123,7 @@ def _fragment(h: Hypothesis, number: int, history: History) -> set[int]:
 def _long_ago(h: Hypothesis, place: Place, history: History) -> bool:
     """Whether its visits are all in the history, and long over."""
     known = history.start == 0 or place.recent[0] >= history.start + MARGIN
-    return known and place.recent[-1] < history.end - h.size - 2 * MARGIN
+    return known and place.recent[-1] < history.end - 2 * MARGIN
 
 
 def without(h: Hypothesis, numbers: Collection[int], history: History, *, floor: float) -> Hypothesis | None:
@@ -106,36 +132,45 @@ def without(h: Hypothesis, numbers: Collection[int], history: History, *, floor:
     Its weight changes by what was to be explained of those places (their sights, their ways), and by how much better
     or worse the steps around their visits are explained without them.
     """
-    gain = _prior_cost(h, numbers)
-    for first, last in _spells(h, numbers, history):
-        gain += replayed(h, history, first, last, skip=numbers, start_without=numbers)
-        gain -= replayed(h, history, first, last, skip=(), start_without=numbers)
+    gain, moves = _prior_cost(h, numbers), 0.0
+    for spell in _spells(h, numbers, history):
+        for sign, skip in ((1.0, numbers), (-1.0, ())):
+            evidence, moved = replayed(h, history, *spell, skip=skip, start_without=numbers)
+            gain += sign * evidence
+            moves += sign * moved
     if h.weight + gain < floor:
         return None
     other = h.fork()
     other.chances, other.weight = h.chances, h.weight + gain
     _remove(other, numbers)
+    moves = min(max(moves, -other.counts.yes[MOVED]), other.counts.no[MOVED])
+    other.counts.yes[MOVED] += moves
+    other.counts.no[MOVED] -= moves
     return other
 
 
 def replayed(
     h: Hypothesis, history: History, first: int, last: int, *, skip: Collection[int], start_without: Collection[int]
-) -> float:
-    """log P(percepts first … last | the map), started anywhere but in the places `start_without`, never in `skip`."""
+) -> tuple[float, float]:
+    """log P(percepts first … last | the map), started anywhere but in the places `start_without`, never in `skip`;
+    and how many silent moves there were in these steps, as is expected.
+    """
     start = [k for k in h.places if k not in start_without]
     logs = {k: log_likelihood(h, k, history[first]) for k in start}
     most = max(logs.values())
     belief = {k: exp(value - most) for k, value in logs.items() if value > most - 14.0}
     total = sum(belief.values())
-    evidence = 0.0
+    evidence = moves = 0.0
     for time in range(first + 1, last + 1):
         sensed = history[time]
         ahead = _predicted(h, {k: p / total for k, p in belief.items()}, sensed, skip)
-        belief = {k: p * exp(log_likelihood(h, k, sensed)) for k, p in ahead.items()}
+        fits = {k: exp(log_likelihood(h, k, sensed)) for k in ahead}
+        belief = {k: p * fits[k] for k, p in ahead.items()}
         total = sum(belief.values())
         evidence += log(total)
+        moves += h.chances.moved / h.size * sum(fits.values()) / total
         belief = {k: p for k, p in belief.items() if p > 1e-6 * total}
-    return evidence
+    return evidence, moves
 
 
 def _predicted(h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Collection[int]) -> dict[int, float]:
@@ -181,7 +216,8 @@ def _prior_cost(h: Hypothesis, numbers: Collection[int]) -> float:
             if way.net:
                 p = probability(way_odds(h, number, place, index))
                 half = 0.5 if h.neighbour(place, index) != NOWHERE else 1.0
-                cost -= half * (p * log(h.chances.open) + (1.0 - p) * log(1.0 - h.chances.open))
+                open_ = before_reading(h, number, place, index, h.places.__getitem__, int)
+                cost -= half * (p * log(open_) + (1.0 - p) * log(1.0 - open_))
     return cost
 
 
@@ -210,6 +246,11 @@ def _remove(h: Hypothesis, numbers: Collection[int]) -> None:
 def _seldom(h: Hypothesis, number: int, history: History) -> bool:
     place = h.places[number]
     return len(place.recent) < min(SELDOM, RECENT) and _long_ago(h, place, history)
+
+
+def _has_twin(h: Hypothesis, place: Place) -> bool:
+    """Whether another place looks like it."""
+    return any(len(h.shown.get((sensor, place.label(sensor))) or ()) > 1 for sensor in range(h.scheme.sensors))
 
 
 def _misfit(h: Hypothesis, number: int) -> bool:

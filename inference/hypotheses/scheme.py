@@ -12,7 +12,7 @@ Reading = int | Mapping[int, float] | None  # A label, by number; likelihoods of
 
 @dataclass(frozen=True, slots=True)
 class WayScheme:
-    """The ways that a place may have.
+    """The ways that a place may have, and which of them undo each other.
 
     Raises:
         CogmapError: the parts do not fit `count` ways.
@@ -41,7 +41,7 @@ class WayScheme:
 
 @dataclass(frozen=True, slots=True)
 class Sensed:
-    """What one step brings."""
+    """The readings of one step."""
 
     sights: tuple[Reading, ...]  # a reading of each sensor
     ways: tuple[float | None, ...]  # P(open) of each way as it was read, or None where it was not looked at

@@ -49,11 +49,10 @@ class Parts:
     doubts: Sequence[int]
     labels: tuple[int, ...]
     evidence: float
-    numbers: tuple[int, int, bool, int]
-    """Time, place in `doubts`, whether all is clear, steps without doubt."""
+    numbers: tuple[int, int, bool, int, int, bool]
+    """Time, place in `doubts`, whether all is clear, steps without doubt, how often it was begun anew, and whether
+    labels and ways are not all that was sensed."""
     awake: tuple[int, ...]
-    total: float
-    """log P(all steps so far)."""
 
 
 def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
@@ -77,6 +76,7 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
     out.many(parts.history, out.sensed)
     out.many(parts.tried.items(), lambda item: out.whole.extend(map(int, (*item[0], *item[1]))))
     out.many(parts.doubts, out.whole.append)
+    out.many(parts.history.norms, out.count)
     header = {
         "version": VERSION,
         "scheme": _described(scheme),
@@ -98,8 +98,8 @@ def stored(scheme: WayScheme, parts: Parts) -> tuple[dict[str, Any], Arrays]:
         "rates": ROWS,
         "share": len(Share()),
         "awake": list(parts.awake),
-        "total": parts.total,
         "way": len(Way()),
+        "norms": True,
     }
     arrays = out.rows()
     return {**header, "check": _checksum(header, arrays)}, arrays
@@ -198,16 +198,17 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
     for one, other, period, apart, *rest in source.many(lambda: source.numbers(9)):
         tried[one, other, bool(period), apart] = Tried(*rest)
     doubts = source.row()
+    history.norms.extend(source.counts().items() if header.get("norms") else ((time, 0.0) for time, _ in history))
     source.end()
     kind, places = header["change"]
-    time, doubted, clear, quiet = header["numbers"]
+    time, doubted, clear, quiet, tries, partly = (*header["numbers"], 0, False)[:6]
     awake = tuple(int(way) for way in header.get("awake", range(scheme.count)))
     if not {*awake_ways(scheme)} <= set(awake) <= set(range(scheme.count)) or sorted(set(awake)) != [*awake]:
         raise ValueError("it thinks of ways that there are not")
     evidence, labels = float(header["evidence"]), tuple(int(n) for n in header["labels"])
     parts = Parts(
         hypotheses[:alive], history, tried, tuple(past), Change(kind, tuple(places)), doubts, labels, evidence,
-        (int(time), int(doubted), bool(clear), int(quiet)), awake, float(header.get("total", 0.0)),
+        (int(time), int(doubted), bool(clear), int(quiet), int(tries), bool(partly)), awake,
     )  # fmt: skip
     _check_parts(scheme, parts)
     return parts
@@ -215,13 +216,17 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
 
 def _check_parts(scheme: WayScheme, parts: Parts) -> None:
     """Refuse parts that contradict each other."""
-    time, doubted, _, _ = parts.numbers
+    time, doubted, *_, tries, _ = parts.numbers
     alive = bool(parts.hypotheses)
-    if abs(sum(exp(h.weight) for h in parts.hypotheses) - alive) > 1e-6 or not isfinite(parts.evidence + parts.total):
+    if abs(sum(exp(h.weight) for h in parts.hypotheses) - alive) > 1e-6 or not isfinite(parts.evidence):
         raise ValueError("its weights do not add up to one")
     if len(parts.labels) != scheme.sensors * alive or not 0 <= doubted <= len(parts.doubts):
         raise ValueError("its numbers contradict each other")
     times = [time for time, _ in parts.history]
+    if [time for time, _ in parts.history.norms] != times or not all(isfinite(norm) for _, norm in parts.history.norms):
+        raise ValueError("its steps are not all weighed")
+    if not 0 <= tries <= time:
+        raise ValueError("its numbers contradict each other")
     if times != list(range(time - len(times), time)) or parts.change.kind not in ("extended", "revised"):
         raise ValueError("its steps do not follow each other")
     if [step.time for step in parts.past] != times[len(times) - len(parts.past) :]:

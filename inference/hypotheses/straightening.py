@@ -23,11 +23,13 @@ def straightened(h: Hypothesis, number: int, *, floor: float) -> Hypothesis | No
         if way.walks != 1:
             continue
         sources = sorted(source for source, by in place.into if inverse[by] == index and source != way.to)
+        if not sources:
+            continue
         back = h.places[way.to].ways[inverse[index]]
         crooked = len(sources) + (back.walks > 0 and back.to != number)
         counts = {MOVED: (1.0, -1.0), UNDONE: (0.0, -float(crooked))}
         gain = sum(rate_gain(h, rate, *more) for rate, more in counts.items()) - log(h.size + unseen(h))
-        if sources and h.weight + gain >= floor:
+        if h.weight + gain >= floor:
             return _cut(h, number, index, sources[0], gain, counts)
     return None
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from heapq import nlargest
 from math import lgamma
 from operator import add
 from operator import sub as minus
@@ -29,8 +30,8 @@ BEAM = 64
 ODD = -8.0
 """Nats for a move between places that do not lie beside each other."""
 
-Moves = Counter[tuple[int, int, int]]
-"""How often a way that was to be taken led from one label to another."""
+Moves = Mapping[tuple[int, int], Counter[int]]
+"""From one label to another, how often each way was to be taken."""
 
 
 def surveyed(like: Hypothesis, history: History, *, floor: float) -> Hypothesis | None:
@@ -44,7 +45,7 @@ def surveyed(like: Hypothesis, history: History, *, floor: float) -> Hypothesis 
     Returns:
         The hypothesis, its weight log P(walk, hypothesis); None where a label was not read, or below the floor.
     """
-    at, h, start = _laid_out(like.scheme, history), like.emptied(), None
+    at, h, start = _laid_out(like, history), like.emptied(), None
     for time, sensed in history:
         label = sensed.sights[0]
         if not isinstance(label, int):
@@ -82,52 +83,51 @@ class _Layout(NamedTuple):
     score: float
 
 
-def _laid_out(scheme: WayScheme, history: History) -> Mapping[int, Position]:
+def _laid_out(like: Hypothesis, history: History) -> Mapping[int, Position]:
     """Where each label lies, one after another, that first which most moves join to those that are laid down."""
-    moves, beside = Moves(), Counter[tuple[int, int]]()
+    moves, beside = dict[tuple[int, int], Counter[int]](), Counter[tuple[int, int]]()
     before: int | None = None
     for _, sensed in history:
         label = sensed.sights[0]
-        if isinstance(label, int) and before is not None and sensed.action is not None and not sensed.told:
-            moves[before, sensed.action, label] += label != before
-            beside[before, label] += 1
-            beside[label, before] += 1
-        before = label if isinstance(label, int) else None
+        if not isinstance(label, int):
+            label = None
+        elif before is not None and sensed.action is not None and not sensed.told:
+            if label != before:
+                moves.setdefault((before, label), Counter())[sensed.action] += 1
+            beside.update(((before, label), (label, before)))
+        before = label
     left = {label for label, _ in beside} or {before or 0}
-    first = max(left, key=lambda label: sum(n for (one, _), n in beside.items() if one == label))
-    beam, left = [_Layout({first: scheme.origin}, {}, 0.0)], left - {first}
+    first = max(sorted(left), key=lambda label: sum(n for (one, _), n in beside.items() if one == label))
+    beam, left = [_Layout({first: like.scheme.origin}, {}, 0.0)], left - {first}
     while left:
         placed = beam[0].at
         label = max(sorted(left), key=lambda label: sum(beside[label, other] for other in placed))
-        beam = sorted(
-            (more for layout in beam for more in _with(scheme, moves, layout, label)), key=lambda one: -one.score
-        )[:BEAM]
-        left = left - {label}
+        longer = (more for layout in beam for more in _with(like, moves, layout, label))
+        beam, left = nlargest(BEAM, longer, key=_score), left - {label}
     return beam[0].at
 
 
-def _with(scheme: WayScheme, moves: Moves, layout: _Layout, label: int) -> Iterator[_Layout]:
+def _with(like: Hypothesis, moves: Moves, layout: _Layout, label: int) -> Iterator[_Layout]:
     """The layout with one label more, in each place beside those from or to which moves lead."""
-    assert scheme.displacements is not None
-    near = {other: at for other, at in layout.at.items() if any(_between(scheme, moves, label, other))}
-    taken = set(layout.at.values())
-    ahead = {tuple(map(add, at, by)) for at in (near or layout.at).values() for by in scheme.displacements}
-    for there in sorted(ahead - taken):
+    displacements = like.scheme.displacements
+    assert displacements is not None
+    ways = {displacements[way]: way for way in like.awake}
+    near = {other: at for other, at in layout.at.items() if (other, label) in moves or (label, other) in moves}
+    ahead = {tuple(map(add, at, by)) for at in (near or layout.at).values() for by in ways}
+    for there in sorted(ahead.difference(layout.at.values())):
         led = dict(layout.led)
         for other, at in near.items():
-            for one, to, source, target in ((other, label, at, there), (label, other, there, at)):
-                by = tuple(map(minus, target, source))
-                taken_way = scheme.displacements.index(by) if by in scheme.displacements else NOWHERE
-                for given in range(scheme.count):
-                    if times := moves[one, given, to]:
-                        led[given, taken_way] = led.get((given, taken_way), 0) + times
-        yield _Layout({**layout.at, label: there}, led, _evidence(scheme, led))
+            for one, to, by in (
+                (other, label, tuple(map(minus, there, at))), (label, other, tuple(map(minus, at, there)))
+            ):  # fmt: skip
+                for given, times in moves.get((one, to), {}).items():
+                    key = given, ways.get(by, NOWHERE)
+                    led[key] = led.get(key, 0) + times
+        yield _Layout({**layout.at, label: there}, led, _evidence(like.scheme, led))
 
 
-def _between(scheme: WayScheme, moves: Moves, one: int, other: int) -> Iterator[int]:
-    for given in range(scheme.count):
-        yield moves[one, given, other]
-        yield moves[other, given, one]
+def _score(layout: _Layout) -> float:
+    return layout.score
 
 
 def _evidence(scheme: WayScheme, led: Mapping[tuple[int, int], int]) -> float:

@@ -8,6 +8,7 @@ from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
+from .afresh import first_told, is_odd, tries_until
 from .attempts import CONTRADICTED, NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
@@ -25,7 +26,7 @@ from .rates import ELSEWHERE
 from .reading import together, whereabouts
 from .recharting import recharted
 from .records import NOWHERE
-from .replaying import History, doubted, without
+from .replaying import OFTEN, History, doubted, replayed, without
 from .scheme import Sensed, WayScheme
 from .storing import Arrays, Parts, restored, stored
 from .straightening import straightened
@@ -46,6 +47,9 @@ IN_VAIN = -1e6
 DECIDED = 256
 """Steps after which what was open is decided, or hypotheses would differ in more and more that nothing ever tells."""
 
+DOUBTED = 4
+"""Places that are looked at a step where the agent is moved often."""
+
 SURVEYS = (32, 64, 128, 256, 480)
 """Steps at which the whole walk is surveyed, where something is in doubt then; later ones would not know all of it."""
 
@@ -54,7 +58,7 @@ MANY = 4096
 
 
 class Tracker:
-    """Where the agent is, and in what map.
+    """Weighted hypotheses about the map and about the agent's place in it.
 
     Attributes:
         scheme: what is known of ways beforehand.
@@ -83,7 +87,7 @@ class Tracker:
         self._overwritten: list[tuple[Attempt, Tried | None]] = []
         self._clear, self._quiet = True, 0
         self._past: tuple[Past, ...] = ()
-        self._total = 0.0  # log P(all steps so far)
+        self._tries, self._partly = 0, False
 
     @property
     def best(self) -> Hypothesis:
@@ -116,11 +120,12 @@ class Tracker:
         if len(self._tried) > MANY:
             self._tried = {}
         self.history.add(sensed, self.time)
+        self._partly = self._partly or sensed.others is not None
         self.labels, self.awake = tuple(n + 1 for n in labels), awake_ways(self.scheme, self.awake, sensed)
         for h in self.hypotheses:
             h.awake = self.awake
         if self.hypotheses:
-            self.hypotheses = self._advanced(sensed)
+            self.hypotheses = self._afresh(self._advanced(sensed))
         else:
             self.hypotheses = [self._first(sensed)]
         for h in self.hypotheses:
@@ -157,7 +162,7 @@ class Tracker:
         """What `rollback` needs to undo the next step; it costs as much as there are hypotheses."""
         self._overwritten = []  # what the step before has overwritten is not to be put back
         kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
-        kept += self._clear, self._quiet, self._past, self.awake, self._total
+        kept += self._clear, self._quiet, self._past, self.awake, self._tries, self._partly
         return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
 
     def rollback(self, checkpoint: Checkpoint) -> None:
@@ -173,7 +178,7 @@ class Tracker:
             )
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
         self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
-        self._clear, self._quiet, self._past, self.awake, self._total = rest
+        self._clear, self._quiet, self._past, self.awake, self._tries, self._partly = rest
         for key, before in reversed(self._overwritten if tried is self._tried else ()):
             if before is None:
                 tried.pop(key, None)
@@ -186,10 +191,10 @@ class Tracker:
 
     def state(self) -> tuple[dict[str, Any], Arrays]:
         """All that `restored` needs to walk on: a header for JSON, and arrays of numbers."""
-        numbers = self.time, self._doubted, self._clear, self._quiet
+        numbers = self.time, self._doubted, self._clear, self._quiet, self._tries, self._partly
         parts = Parts(
             self.hypotheses, self.history, self._tried, self._past, self.change, self._doubts, self.labels,
-            self.evidence, numbers, self.awake, self._total,
+            self.evidence, numbers, self.awake,
         )  # fmt: skip
         return stored(self.scheme, parts)
 
@@ -206,8 +211,9 @@ class Tracker:
         tracker.hypotheses, tracker.history, tracker.labels = parts.hypotheses, parts.history, parts.labels
         tracker.evidence, tracker.change, tracker._tried = parts.evidence, parts.change, parts.tried
         tracker._past, tracker._doubts = parts.past, parts.doubts
-        tracker.time, tracker._doubted, tracker._clear, tracker._quiet = parts.numbers
-        tracker.awake, tracker._total = parts.awake, parts.total
+        tracker.time, tracker._doubted, tracker._clear, tracker._quiet, *rest = parts.numbers
+        tracker._tries, tracker._partly = rest
+        tracker.awake = parts.awake
         for h in tracker.hypotheses:
             h.awake, h.chances = tracker.awake, Chances(h.counts, tracker.labels, size=h.size)
         return tracker
@@ -218,8 +224,9 @@ class Tracker:
         first = Hypothesis(self.scheme)
         first.awake = self.awake
         first.chances = Chances(first.counts, self.labels)
-        self.evidence = self._total = log_predictive(first, sensed, None, None, NOWHERE)
+        self.evidence = log_predictive(first, sensed, None, None, NOWHERE)
         self.change = Change("revised")
+        self.history.weigh(self.evidence)
         begin(first, sensed, self.time)
         return first
 
@@ -245,6 +252,26 @@ class Tracker:
         best = found[0]
         self.change = Change("extended", tuple(best.touched)) if best.origin is previous else Change("revised")
         return found
+
+    def _afresh(self, found: list[Hypothesis]) -> list[Hypothesis]:
+        """Those that a tracker finds which is told the later steps alone, where they explain all steps better."""
+        tries = self._tries
+        if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time, tries) == tries:
+            return found
+        history, first = self.history, first_told(self.history.start, self.time, tries)
+        self._tries = tries_until(self.time, tries)
+        other = Tracker(self.scheme, self.options)
+        other.time, other.awake, other._partly = first, self.awake, True
+        for time in range(first, self.time + 1):
+            other.step(history[time], [n - 1 for n in self.labels])
+        earlier = replayed(other.best, history, history.start, first - 1, skip=(), start_without=())[0]
+        gain = other.history.norm(first) + earlier - history.norm(history.start + 1)
+        if other.best.weight + gain <= found[0].weight:
+            return found
+        history.revalue(gain)
+        self._tried, self._past, self._doubted, self._quiet = {}, (), 0, 0
+        self.change = Change("revised")
+        return other.hypotheses
 
     def _decided(self, found: list[Hypothesis]) -> list[Hypothesis]:
         """Now and then those alone that go back to one hypothesis of some time ago, the one that most go back to.
@@ -277,8 +304,8 @@ class Tracker:
             found = merged(found, [*again, *folds])
             self._clear, self._quiet = False, 0
         found, norm = normalised(found, drop=wide, most=self.options.most)
-        self._total += norm
         self._past = (*self._past, step._replace(norm=norm))[-BACK:]
+        self.history.weigh(norm)
         if not self._clear:
             self._quiet = 0 if self._open_question(found) else self._quiet + 1
             if self._quiet > QUIET:
@@ -332,9 +359,16 @@ class Tracker:
         return results
 
     def _without(self, h: Hypothesis, drop: float) -> Iterator[Hypothesis]:
-        """The most probable hypothesis without some place that it may only have imagined; one is looked at a step."""
+        """The most probable hypothesis without some place that it may only have imagined.
+
+        One is looked at a step; where the agent is moved often, and so many are in doubt, a few.
+        """
         if h.crowd is not None:
             return
+        for _ in range(DOUBTED if h.chances.moved > OFTEN else 1):
+            yield from self._without_one(h, h.weight - drop)
+
+    def _without_one(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:
         if self._doubted == 0:
             self._doubts = list(h.places)
             self._doubted = len(self._doubts)
@@ -342,8 +376,8 @@ class Tracker:
         number = self._doubts[self._doubted]
         place = h.places.get(number)
         for one in {number, h.here} if place is not None else {h.here}:
-            yield from self._rethought(h, one, h.weight - drop)
-        key, floor = (number, number, False, 0), h.weight - drop
+            yield from self._rethought(h, one, floor)
+        key = (number, number, False, 0)
         if place is None or self._tried.get(key, NEVER).blocks(h, self.time, floor):
             return
         if numbers := doubted(h, number, self.history):
@@ -359,9 +393,10 @@ class Tracker:
             return
         if self.scheme.displacements is None or sensed.others is not None or not self.scheme.sensors:
             return
-        found = surveyed(best, self.history, floor=self._total + best.weight - drop)
+        total = self.history.norm(0)
+        found = surveyed(best, self.history, floor=total + best.weight - drop)
         if found is not None:
-            found.weight -= self._total
+            found.weight -= total
             yield found
 
     def _folds(self, h: Hypothesis, floor: float) -> Iterator[Hypothesis]:

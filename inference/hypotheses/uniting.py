@@ -7,7 +7,7 @@ from math import exp, inf, log
 from typing import Any, NamedTuple
 
 from .charts import Charts
-from .evidence import probability, way_odds
+from .evidence import before_reading, probability, way_odds
 from .hypothesis import Hypothesis, Key
 from .records import NOWHERE, RECENT, Place, SightCounts, Way
 
@@ -117,7 +117,7 @@ class Union:
         if kept == other or self._attempt((kept, other), self._cost_of_moves(fork)):
             return
         number = self.find(fork.number)
-        astray = fork.walks * -log(self.h.chances.astray / self.h.scheme.count) if fork.walks else inf
+        astray = fork.walks * -log(self.h.chances.astray / len(self.h.awake)) if fork.walks else inf
         for end in [number, *(self.find(way.to) for way in self.view(number).ways if way.to != NOWHERE)]:
             fits = end == other or self.view(end).label() == self.view(other).label()
             if fits and end != kept and astray < self._cost_of_moves(fork):
@@ -215,13 +215,18 @@ class Union:
         return Way(net, opened, blocked, kept.walks, kept.to, stays)
 
     def _ways_gain(self, first: int, a: Place, second: int, b: Place, index: int) -> float:
-        """log Σ_s P(s | a) P(s | b) / P(s), s being open or blocked; half where both sides of the door are united."""
+        """log Σ_s P(s | a) P(b's | s) - log Σ_s P(s) P(b's | s), s being open or blocked, b's what was read in b.
+
+        Half of it where both sides of the door are united.
+        """
         mine, its = a.ways[index], b.ways[index]
         if not (mine.net or mine.to != NOWHERE) or not (its.net or its.to != NOWHERE):
             return 0.0
         open_ = self.h.open(index)
         p, q = probability(self._odds(first, a, index)), probability(self._odds(second, b, index))
-        gain = log(p * q / open_ + (1.0 - p) * (1.0 - q) / (1.0 - open_))
+        as_open, as_blocked = q / open_, (1.0 - q) / (1.0 - open_)
+        before = before_reading(self.h, second, b, index, self.view, self.find)
+        gain = log((p * as_open + (1.0 - p) * as_blocked) / (before * as_open + (1.0 - before) * as_blocked))
         both = mine.to != NOWHERE and its.to != NOWHERE and self.h.scheme.inverse is not None
         return 0.5 * gain if both and gain > 0.0 else gain
 

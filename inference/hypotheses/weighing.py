@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from math import lgamma, log
+from operator import itemgetter
 from typing import NamedTuple
 
 from .chances import Chances
-from .evidence import strength
+from .evidence import before_reading, strength
 from .hypothesis import Hypothesis
 from .rates import ELSEWHERE, MEETING, NEW, RATE_PRIORS, SQUARE, UNDONE, crp_evidence
-from .records import NOWHERE
+from .records import NOWHERE, Place
 from .squares import around, tally
 from .uniting import Union
 
-FACTOR = 0.6
-"""Share of the places, on average, among which a loop that closes had to choose while the map grew."""
+FACTOR = 0.6  # Share of the places, on average, among which a loop that closes had to choose while the map grew
 
 
 class Links(NamedTuple):
@@ -45,7 +45,7 @@ def scored(united: Union) -> tuple[float, Links]:
     h = united.h
     more = _links(united, apart=False).less(_links(united, apart=True))
     gain = united.sights - united.cost + _seating_gain(united)
-    gain += _doors(united, apart=False) - _doors(united, apart=True)
+    gain += _united_doors(united, apart=False) - _united_doors(united, apart=True)
     gain += _structure_gain(united, more)
     gain += rate_gain(h, UNDONE, 0, more.crooked)
     if h.scheme.inverse is None:
@@ -172,36 +172,55 @@ def _denied(united: Union, number: int, index: int, to: int, *, apart: bool) -> 
     return any(by == h.scheme.inverse[index] and find(source) != to for source, by in into)
 
 
-def _doors(united: Union, *, apart: bool) -> float:
-    """log P(readings of the ways concerned), those of both sides of a door together."""
-    h, inverse = united.h, united.h.scheme.inverse
-    find = _itself if apart else united.find
-    view = h.places.__getitem__ if apart else united.view
+def _united_doors(united: Union, *, apart: bool) -> float:
+    h = united.h
+    if apart:
+        return doors(h, united.members())
+    return doors(h, united.classes, view=united.view, find=united.find, beside=united.beside)
+
+
+def _itself(number: int) -> int:
+    return number
+
+
+def doors(
+    h: Hypothesis,
+    numbers: Iterable[int],
+    *,
+    view: Callable[[int], Place] | None = None,
+    find: Callable[[int], int] = _itself,
+    beside: Callable[[int, int], int] | None = None,
+) -> float:
+    """log P(readings of the ways of some places), those of both sides of a door together.
+
+    Before anything was read a door is as open as it was expected to be when the first of its two places was found.
+
+    Args:
+        h: the hypothesis.
+        numbers: the places.
+        view, find, beside: the record of a place, the one it is taken for, and the one that poses say is beyond a way,
+            if not as the hypothesis has them.
+    """
+    inverse, view = h.scheme.inverse, view or h.places.__getitem__
     done: set[tuple[int, int]] = set()
     total = 0.0
-    for number in united.members() if apart else united.classes:
+    for number in numbers:
         place = view(number)
         for index in h.awake:
             if (number, index) in done:
                 continue
-            way = place.ways[index]
-            other = NOWHERE
+            way, its, first = place.ways[index], 0.0, (number, place, index)
             if inverse is not None:
-                other = (
-                    find(way.to)
-                    if way.to != NOWHERE
-                    else h.beside(place, index)
-                    if apart
-                    else united.beside(number, index)
-                )
-            its = 0.0
-            if other != NOWHERE and inverse is not None:
-                back = view(other).ways[inverse[index]]
-                if back.to == NOWHERE or find(back.to) == number:
-                    its = back.net
-                    done.add((other, inverse[index]))
+                known = way.to != NOWHERE
+                other = find(way.to) if known else beside(number, index) if beside else h.beside(place, index)
+                if other != NOWHERE:
+                    there, back = view(other), inverse[index]
+                    if there.ways[back].to == NOWHERE or find(there.ways[back].to) == number:
+                        its = there.ways[back].net
+                        done.add((other, back))
+                        first = min(first, (other, there, back), key=itemgetter(0))
             if way.net or its:
-                total += door_evidence(h.chances, way.net, its, open_=h.open(index))
+                total += door_evidence(h.chances, way.net, its, open_=before_reading(h, *first, view, find))
     return total
 
 
@@ -215,7 +234,3 @@ def door_evidence(chances: Chances, mine: float, its: float, *, open_: float) ->
     same = p * one * other + (1.0 - p) / (one * other)
     apart = (p * one + (1.0 - p) / one) * (p * other + (1.0 - p) / other)
     return log(chances.undone * same + (1.0 - chances.undone) * apart)
-
-
-def _itself(number: int) -> int:
-    return number

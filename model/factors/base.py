@@ -47,7 +47,7 @@ class Context:
 
 @dataclass(frozen=True, slots=True)
 class Successors:
-    """Where an action may have led from each of `n` places, `[n, slots]`."""
+    """The places to which an action may have led from each of `n` places, `[n, slots]`."""
 
     places: Ints  # s'; negative where a slot is unused, or leads out of the map
     probability: Floats  # B_s[a](s', s)
@@ -98,7 +98,7 @@ class Table:
 
 
 class ModelFactor:
-    """One factor of the generative model (eq. 1): all that anybody needs to know of its part.
+    """One factor of the generative model (eq. 1), with everything that filter, learning, planning and files need of it.
 
     A factor belongs to one model from the moment it is attached.
 

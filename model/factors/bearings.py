@@ -16,7 +16,7 @@ NONE = -1  # stands for an action that has no way here
 
 
 class Bearings(Sight):
-    """Senses the bearing of each way, in degrees, 0 is north, clockwise: `bearings` in observations.
+    """A sensor of the bearing of each way, in degrees clockwise from north: `bearings` in observations.
 
     That is one number an action, None where there is no way. All together are the label that the place shows.
     """

@@ -17,7 +17,7 @@ Shares = tuple[float, ...]  # likelihood of each context, the largest 1
 
 
 class Contexts(Sensor):
-    """The context that the world is in: a latent k that goes on as it is, unless a way changes it.
+    """The context of the world: a discrete latent that stays the same unless a way changes it.
 
     A place of the map is a place of the world in one context, so that Q(s) is the exact joint of both: sights and ways
     may differ from context to context, a way may lead on in another one (a key is taken), and plans foresee all that.

@@ -10,7 +10,7 @@ from .base import Floats, Ints, ModelFactor, Support, Table
 
 
 class Displacement(ModelFactor):
-    """With a small probability the agent is in any of the visited places instead, all alike.
+    """The prior of silent displacement: with a small probability the agent is in any visited place, uniformly.
 
     Args:
         probability: P(moved_t).

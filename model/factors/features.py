@@ -19,7 +19,7 @@ NEGLIGIBLE = 1e-6
 
 
 class Features(Sight):
-    """Senses a vector in each place, such as what a network makes of a picture.
+    """A sensor of feature vectors, such as those that a network computes from an image.
 
     It keeps prototypes, by which it knows vectors again, and gets another one when a vector is more probable as
     something new; for the rest of the model it is a sight of which each label is the number of a prototype, and each

@@ -14,7 +14,7 @@ _TAKEN = frozenset({"s", "p", "o", "c", "Q", "M", "places", "visits", "transitio
 
 
 class Sensor(ModelFactor):
-    """A sensor of the place that the agent is in. Observations give its reading under its name.
+    """A sensor. Observations have its reading under its name.
 
     A class of your own has `log_likelihood` at least; whatever it must remember it learns in `learn`.
 

@@ -25,7 +25,7 @@ SHOWN = 64
 
 
 class Sight(Sensor):
-    """Senses one label in each place; labels are met as they come.
+    """A sensor of one label per place. New labels are added when they are first seen.
 
     Args:
         name: the key in observations.

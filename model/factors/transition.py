@@ -28,7 +28,7 @@ def _as_given(action: int) -> None:
 
 
 class Transition(ModelFactor):
-    """Row `place * K + action` of the table `B_s` has the places that the action may lead to.
+    """The transitions: row `place * K + action` of the table `B_s` has the places that the action may lead to.
 
     Attributes:
         table: B_s.

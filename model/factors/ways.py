@@ -16,7 +16,7 @@ Looks = Sequence[WayReading]  # A reading an action
 
 
 class Ways(Sensor):
-    """Senses of each action whether its way is open: `open` in observations.
+    """A sensor of whether the way of each action is open: `open` in observations.
 
     That is one reading an action, in a list, an array (masked where not looked at) or a mapping by name: true, false,
     P(open), or None where it was not looked at.

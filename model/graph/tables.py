@@ -25,7 +25,7 @@ NO_PANDAS = "table: pandas is not installed; run: pip install 'cogmap[tables]'"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LabelledTable:
-    """Cells with a label a row and a label a column; `str` aligns them, notebooks show HTML.
+    """A table with a label for each row and column. `str` aligns it, and notebooks show it as HTML.
 
     Raises:
         CogmapError: the cells do not fit the labels.

@@ -9,7 +9,7 @@ from ..generative import GenerativeModel
 
 @dataclass(frozen=True, slots=True)
 class Whereabouts:
-    """What is believed of where the agent is."""
+    """What is believed about the agent's place."""
 
     places: Mapping[int, float]  # Q(s_t) of the places that hold mass, the most probable first
 
@@ -25,7 +25,8 @@ class Whereabouts:
 
 
 class Growth:
-    """When places are added to a map. Each method returns the new places; a rule of your own answers what differs.
+    """A growth rule: it decides when places are added to a map. Each method returns the new places; override what
+    differs.
 
     Attributes:
         name: what it is called at the command line and in files.

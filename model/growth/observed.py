@@ -5,7 +5,7 @@ from .base import Growth, Whereabouts, place_beyond
 
 
 class ObservedGrowth(Growth):
-    """Grows on entering; the doors that were not taken are forgotten."""
+    """Adds a place when the agent enters it. Doors that were not taken add nothing."""
 
     name = "observed"
 

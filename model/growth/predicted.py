@@ -7,7 +7,7 @@ from .base import Growth, Whereabouts, place_beyond
 
 
 class PredictedGrowth(Growth):
-    """Imagines the place behind every open door before it was seen."""
+    """Adds an imagined place behind every open door before the agent has seen it."""
 
     name = "predicted"
 

@@ -13,7 +13,7 @@ MOST = 10_000_000  # places that can be known beforehand
 
 
 class StaticGrowth(Growth):
-    """Starts with every place, none of them connected; entering gives the next one its position.
+    """Starts with all places, unconnected. Entering a new one gives it its position.
 
     Args:
         places: how many places the world has.

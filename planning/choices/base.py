@@ -15,7 +15,7 @@ TIE = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Why a policy that is no worse than the chosen one was not taken."""
+    """Why a policy that is as good as the chosen one was not taken."""
 
     name: str  # in data
     words: str  # for people

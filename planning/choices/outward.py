@@ -12,7 +12,8 @@ from .base import TIE, Choice, Floats, Ints, Verdict, best_of, near_best
 
 @dataclass(frozen=True, slots=True)
 class Outward(Choice):
-    """Takes a policy of the least G, as `Best` does, where something is preferred, or nothing is new within reach.
+    """Takes a policy of the least G. While it only explores, it prefers among near-ties the one that leads furthest
+    out.
 
     While it only explores it takes, of the policies within `slack` of the least G, those whose first place never
     entered lies furthest out, and the best of them: exploring leaves fewer pockets behind.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model import ELSEWHERE, CogmapError
+from .doubts import Doubts
 from .kept import Kept
 from .rows import Rows
 from .transitions import Floats, Ints, Transitions, likeliest
@@ -56,7 +57,7 @@ class Cut:
 
 
 class LocalCache:
-    """What plans read of the places of one map. Costs what has changed and what is asked for.
+    """A cache of what plans read of a map. It costs only what has changed and what is asked for.
 
     Args:
         map_: the map.
@@ -66,6 +67,7 @@ class LocalCache:
         links: how often it has changed where a way most probably leads.
         found: what a search of the map found last, for the next one to go on from.
         where: where its places are.
+        doubts: which ways are only thought to lead where they do.
     """
 
     __slots__ = (
@@ -80,6 +82,7 @@ class LocalCache:
         "_unseen",
         "_untried",
         "_ways",
+        "doubts",
         "found",
         "links",
         "visits",
@@ -97,7 +100,7 @@ class LocalCache:
         self._unseen: Floats | None = None
         self.links = 0
         self.found: Any = None
-        self.where = Where(map_)
+        self.where, self.doubts = Where(map_), Doubts(map_)
         self._untried: dict[int, float] = {}
         self._unasked: set[int] | None = None  # what has changed since somebody asked for it; None for all
 

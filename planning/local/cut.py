@@ -24,7 +24,7 @@ HOPE = 0.4  # P(a way that is worth a try leads beyond) from which on plans coun
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """What a policy generator is shown before the local model is cut, to ask for places further off."""
+    """What a policy generator sees before the local model is built, so that it can ask for places further away."""
 
     map: MapView  # the map
     cache: LocalCache  # of its places
@@ -75,7 +75,7 @@ def local_model(
     unseen: Sequence[bool] = (),
     prices: Floats | None = None,
 ) -> LocalModel:
-    """The generative model over what policies can lead to from `belief` over `places`, with the doors `open_` now.
+    """The generative model over the places that policies can reach from `belief`, with the doors `open_` now.
 
     Everything within `look_ahead` steps is in it, and what `beyond` asks for; or, where an `explorer` answers with
     options, the ways to them, undiscounted. Of a belief over more than `starts` places the likeliest remain (see

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True, slots=True)
 class Frontier:
-    """The best options, the best first."""
+    """The best options, best first."""
 
     paths: tuple[tuple[int, ...], ...]  # the actions of each
     places: tuple[int, ...]  # the places of the map on these ways, ascending

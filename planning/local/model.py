@@ -96,44 +96,23 @@ class LocalModel:
         further = ((f"senses[{k}]", A) for k, A in enumerate(self.senses))
         for name, table in (("belief", self.belief), ("A", self.A), ("B", B), *further):
             # a NaN fails every comparison, so these also refuse what is not finite
-            _need(
-                table.min() >= 0.0 and abs(table.sum(0) - 1.0).max() <= 1e-6, f"{name} is no probability", "sums of one"
-            )
+            sure = table.min() >= 0.0 and abs(table.sum(0) - 1.0).max() <= 1e-6
+            _need(sure, f"{name} is no probability", "sums of one")
         wanted = np.concatenate([self.log_C, self.log_C_place, [self.collision_cost]])
-        R = len(self.belief)
-        for fine, what, remedy in (
-            (
-                self.blocked.min() >= 0.0 and self.blocked.max() <= 1.0,
-                "blocked is no probability",
-                "numbers from 0 to 1",
-            ),
-            (
-                np.isfinite(wanted).all(),
-                "log_C, log_C_place or collision_cost is not finite",
-                "a floor to what is unwanted",
-            ),
-            (0.0 < self.discount <= 1.0, f"discount is {self.discount}", "a number above 0, at most 1"),
-            (0.0 <= self.information_weight < np.inf, "information_weight is negative or not finite", "0 or more"),
-            (
-                self.costs is None or (np.isfinite(self.costs).all() and self.costs.min() >= 0.0),
-                "costs has a cost below 0, or none",
-                "finite numbers",
-            ),
-            (
-                self.prices is None or (np.isfinite(self.prices).all() and self.prices.min() >= 0.0),
-                "prices has a price below 0, or none",
-                "finite numbers",
-            ),
-            (0.0 <= self.dropped < 1.0, f"dropped is {self.dropped}", "a probability below 1"),
-            (self.multiplicity.min() >= 1.0, "multiplicity is below one", "each row of A one sight or more"),
-            (self.successor.min() >= -1 and self.successor.max() < R, "successor is no place", "-1, or places from 0"),
-            (
-                self.B.successors.min() >= 0 and self.B.successors.max() < R,
-                "B leads out of the places",
-                "places from 0",
-            ),
-        ):
-            _need(fine, what, remedy)
+        what = "log_C, log_C_place or collision_cost is not finite"
+        R, blocked, reached, led = len(self.belief), self.blocked, self.successor, self.B.successors
+        _need(blocked.min() >= 0.0 and blocked.max() <= 1.0, "blocked is no probability", "numbers from 0 to 1")
+        _need(np.isfinite(wanted).all(), what, "a floor to what is unwanted")
+        _need(0.0 < self.discount <= 1.0, f"discount is {self.discount}", "a number above 0, at most 1")
+        _need(0.0 <= self.information_weight < np.inf, "information_weight is negative or not finite", "0 or more")
+        for name in ("cost", "price"):
+            table = getattr(self, f"{name}s")
+            fine = table is None or (np.isfinite(table).all() and table.min() >= 0.0)
+            _need(fine, f"{name}s has a {name} below 0, or none", "finite numbers")
+        _need(0.0 <= self.dropped < 1.0, f"dropped is {self.dropped}", "a probability below 1")
+        _need(self.multiplicity.min() >= 1.0, "multiplicity is below one", "each row of A one sight or more")
+        _need(reached.min() >= -1 and reached.max() < R, "successor is no place", "-1, or places from 0")
+        _need(led.min() >= 0 and led.max() < R, "B leads out of the places", "places from 0")
 
     def _check_shapes(self) -> None:
         R, K, O = len(self.belief), len(self.motions), len(self.multiplicity)  # noqa: E741

@@ -10,7 +10,7 @@ from .transitions import Floats, Ints
 
 @dataclass(frozen=True, slots=True)
 class Preferences:
-    """What the agent hopes for, and what it would rather not do."""
+    """What the agent prefers, and what it avoids."""
 
     # log preference of sights by number, relative to all others, in nats; `-1` stands for a sight never met
     sights: Mapping[int, float] = field(default_factory=dict[int, float])

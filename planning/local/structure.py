@@ -18,7 +18,7 @@ State = tuple[Places, Classes]
 
 
 class MapHypotheses(Protocol):
-    """Hypotheses about the map as a planner asks them; places are numbered by each hypothesis as it likes."""
+    """The interface through which a planner asks hypotheses about the map. Each numbers places in its own way."""
 
     @property
     def weights(self) -> Sequence[float]:
@@ -28,6 +28,11 @@ class MapHypotheses(Protocol):
     @property
     def here(self) -> Sequence[Hashable]:
         """`[H]` where the agent is under each."""
+        ...
+
+    @property
+    def moves(self) -> Sequence[int]:
+        """The actions that lead anywhere under any of them."""
         ...
 
     def ahead(self, h: int, place: Hashable, action: int, /) -> Hashable | None:
@@ -41,7 +46,7 @@ class MapHypotheses(Protocol):
 
 @dataclass(frozen=True)
 class Structure:
-    """Two hypotheses or more, side by side; steps are worked out once."""
+    """Two or more hypotheses about the map, rolled out side by side."""
 
     hypotheses: MapHypotheses  # all of them
     kept: tuple[int, ...]  # numbers of those that are walked

@@ -10,7 +10,7 @@ from ...model import Ints, Motions, Pose, Sensor, Sight, SparseDirichlet, Transi
 
 
 class MapView(Protocol):
-    """A map as a planner sees it: places by number, and what is believed of each.
+    """A map as a planner sees it: numbered places, and what is believed of each.
 
     Attributes:
         motions: the actions.

@@ -17,7 +17,8 @@ BY = (STEPS, METRES)
 """What ways are measured in: one a step, or how far apart places lie, over the mean length of a way."""
 
 MOST = 64  # options that are weighed, the nearest, and equals of the last of them
-DOUBT = 4.0  # steps that it is worth to see where a way leads, for each standard deviation that it would be long
+DOUBT = 4.0  # steps that it is worth to see where a way leads, for each nat of doubt
+MOST_SPARED = 12.0  # steps that it is worth at most
 SAMPLE = 512  # other places never entered to which the way back is measured, at most, spread evenly over all
 
 LARGEST = 1_000
@@ -32,13 +33,13 @@ def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int =
     one of `BY`; by steps where places have no positions.
     """
     map_ = around.map
-    if map_.visited.all() and not map_.pose.guessed(map_.transitions):
-        return None
+    if map_.visited.all() or (map_.pose.measures and not len(around.cache.where.never_entered()[0])):
+        return _doubted(around, most)
     pose, reach = map_.pose, (1.0 + weight) / (1.0 - weight)
     search = _by_length(around, reach) if by == METRES and pose.measures else _by_steps(around, reach)
     ends = search.ends
     if not ends:
-        return _doubted(around, search, most)
+        return _doubted(around, most)
     if search.depth[ends[0]] <= beyond:
         return None
     depth = np.array([search.depth[end] + search.extra(end) for end in ends], dtype=np.float64)
@@ -54,16 +55,23 @@ def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int =
     return Frontier(paths, tuple(sorted(on)), spared, search.costs(on))
 
 
-def _doubted(around: Surroundings, search: _Search, most: int) -> Frontier | None:
-    """Where nothing new is left, ways that are only thought to lead where they do; None if there are none."""
-    met = [
-        (search.depth[place] + 1 - DOUBT * doubt, place, action)
-        for place, action, doubt in around.map.pose.guessed(around.map.transitions)
-        if place in search.depth
-    ]
+def _doubted(around: Surroundings, most: int) -> Frontier | None:
+    """Where nothing new is left, ways that may lead elsewhere than is thought; None if there are none."""
+    doubts = around.cache.doubts.read()
+    start = int(around.starts[0])
+    search, level, best = _Search({start: 0}, [], STEPS, {}, around.prices), [start], np.inf
+    met, steps = list[tuple[float, int, int]](), 0
+    while doubts and level and steps + 1 - MOST_SPARED < best:
+        met += [
+            (steps + 1 - min(DOUBT * doubt, MOST_SPARED), place, action)
+            for place in level
+            for action, doubt in doubts.get(place, ())
+        ]
+        best, steps = min(met, default=(best,))[0], steps + 1
+        level = _ahead(around, search, level, steps)
     if not met:
         return None
-    kept = [(place, action) for steps, place, action in sorted(met) if steps < min(met)[0] + 1e-9][:most]
+    kept = [(place, action) for worth, place, action in sorted(met) if worth < best + 1e-9][:most]
     on = {place for at, _ in kept for place in search.walk(at)}
     paths = tuple((*search.path(place), action) for place, action in kept)
     return Frontier(paths, tuple(sorted(on)), {}, search.costs(on))
@@ -108,23 +116,27 @@ class _Search:
 
 def _by_steps(around: Surroundings, reach: float) -> _Search:
     """Breadth first, until `reach` times as far as the nearest place never entered, and a step."""
-    map_, cache = around.map, around.cache
-    visited, start = map_.visited, int(around.starts[0])
+    start = int(around.starts[0])
     search = _Search({start: 0}, [], STEPS, {}, around.prices)
     level, steps, most = [start], 0, np.inf
     while level and steps < most and len(search.ends) < MOST:
         steps += 1
-        rows = (cache.likely(np.array(level)) if steps > 1 else around.sensed()).tolist()
-        ahead: list[int] = []
-        for place, row in zip(level, rows, strict=True):
-            for action, after in _cheapest_first(row, search.prices if steps == 1 else None):
-                if after >= 0 and after not in search.depth:
-                    search.depth[after], search.before[after] = steps, (place, action)
-                    (ahead if visited[after] else search.ends).append(after)
+        level = _ahead(around, search, level, steps)
         if search.ends and most == np.inf:
             most = reach * steps + 1.0
-        level = ahead
     return search
+
+
+def _ahead(around: Surroundings, search: _Search, level: list[int], steps: int) -> list[int]:
+    """The places that were entered `steps` steps away, one from those of `level`; the others are ends of the search."""
+    rows = (around.cache.likely(np.array(level)) if steps > 1 else around.sensed()).tolist()
+    visited, ahead = around.map.visited, list[int]()
+    for place, row in zip(level, rows, strict=True):
+        for action, after in _cheapest_first(row, search.prices if steps == 1 else None):
+            if after >= 0 and after not in search.depth:
+                search.depth[after], search.before[after] = steps, (place, action)
+                (ahead if visited[after] else search.ends).append(after)
+    return ahead
 
 
 def _cheapest_first(row: list[int], prices: Floats | None) -> list[tuple[int, int]]:

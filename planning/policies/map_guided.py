@@ -32,7 +32,7 @@ Archive = dict[int, list[tuple[int, float]]]
 
 @dataclass(frozen=True, slots=True)
 class MapGuided(PolicyGenerator):
-    """A prefix tree over `LocalModel.successor` from each place the agent may be at.
+    """Policies that follow the map: a prefix tree over `LocalModel.successor` from each place the agent may be in.
 
     The value of a prefix is the first-visit value of the places on it, each counted once, plus the utility of its
     visits (staying at its end) less its risk of collision. Every kept prefix is a policy that then stays.
@@ -85,7 +85,7 @@ class MapGuided(PolicyGenerator):
             if MORE * best < skeleton.greatest:
                 paths += _beyond(skeleton, start, best)
         if model.structure is not None:
-            for path in telling_walks(model.structure, model.motions):
+            for path in telling_walks(model.structure):
                 paths += _telling(skeleton, starts[0], path, model.look_ahead)
         return Policies(padded(paths, stay=model.motions.stay, length=model.look_ahead), cut)
 
@@ -100,7 +100,7 @@ class MapGuided(PolicyGenerator):
         far = far_ways(around)
         if around.structure is None:
             return far
-        walks = telling_walks(around.structure, around.map.motions)
+        walks = telling_walks(around.structure)
         return np.union1d(far, [place for walk in walks for place in _along(around, walk)]).astype(np.int64)
 
 

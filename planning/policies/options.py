@@ -13,7 +13,7 @@ from .frontier import BY, STEPS, frontier_of
 
 @dataclass(frozen=True, slots=True)
 class Options(PolicyGenerator):
-    """One policy for each place never entered that is worth heading for: the likely shortest way there.
+    """Policies as options: a likely shortest path to each unvisited place that is worth visiting.
 
     While anything is unknown each step costs `cost` nats, and what a place teaches is collected whichever comes first,
     so it cancels between options:

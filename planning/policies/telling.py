@@ -2,7 +2,6 @@
 
 from collections import deque
 
-from ...model import Motions
 from ..local import State, Structure
 from .far_ways import MORE
 
@@ -14,13 +13,13 @@ LEAST_TOLD = 2e-3  # nats about the map below which a walk is not worth its step
 MANY = 8  # walks that are found, at most
 
 
-def telling_walks(structure: Structure, motions: Motions) -> list[Path]:
+def telling_walks(structure: Structure) -> list[Path]:
     """The shortest walks that tell so much, and more than all that are shorter; the last of them tell most.
 
     Breadth first over where the agent would be under each hypothesis, however far, so that an agent in doubt goes where
     it will know, when all is visited too.
     """
-    moves = [action for action in range(len(motions)) if action != motions.stay]
+    moves = structure.hypotheses.moves
     queue, seen = deque[tuple[Path, State]]([((), structure.start)]), {structure.start}
     found, best = list[Path](), LEAST_TOLD
     while queue and best < ENOUGH * structure.entropy and len(seen) < STATES:

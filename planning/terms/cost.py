@@ -12,7 +12,7 @@ from .rolled import Floats, Rollout
 
 @dataclass(frozen=True, slots=True)
 class Cost(Term):
-    """Expected cost of the actions, as percepts have said it so far (ours); it is not among `TERMS`.
+    """Expected cost of the actions, as observations have reported it so far (ours). It is not among `TERMS`.
 
     Raises:
         CogmapError: the price is negative, or not finite.

@@ -17,7 +17,7 @@ FEW = 64  # places up to which it does not pay to leave out those without belief
 
 @dataclass(frozen=True)
 class Rollout:
-    """What is expected after each of `N` prefixes of policies, level by level; the first of them is empty."""
+    """Expectations after each of `N` prefixes of policies, level by level. The first prefix is empty."""
 
     model: LocalModel  # the local model of `R` places
     parent: Ints  # `[N]` the prefix that is one step shorter; the empty one is its own

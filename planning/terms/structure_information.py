@@ -13,7 +13,7 @@ from .rolled import Floats, Rollout, Staying
 
 @dataclass(frozen=True, slots=True)
 class StructureInformation(Term):
-    """Information about which hypothesis about the map is right.
+    """Expected information about which hypothesis about the map is right.
 
     The hypotheses walk side by side, and what they expect to sense divides them into classes that only grow apart, so
     each difference counts once. To stay tells nothing. With one hypothesis it is 0.

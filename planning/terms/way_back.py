@@ -12,7 +12,7 @@ from .rolled import Floats, Rollout
 
 @dataclass(frozen=True, slots=True)
 class WayBack(Term):
-    """The way back to a place never entered, from what else was never entered, when it is entered now."""
+    """The way back to an unvisited place from the other unvisited places, if it is entered now."""
 
     name = "way_back"
     label = "way back"

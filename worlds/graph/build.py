@@ -19,8 +19,7 @@ POSES = ("motions", "displacement", "lengths", "bearing", "none")
 each move, and the bearing of each way; the same, and how long each way is before it was walked; bearings alone;
 nothing. The first that is known is the default."""
 
-BEARINGS = ("displacement", "lengths", "bearing")
-"""Those of which the bearings of ways are part."""
+BEARINGS = ("displacement", "lengths", "bearing")  # Those of which the bearings of ways are part
 
 
 def build(

@@ -22,34 +22,20 @@ class Layout:
 
     The ways of the i-th place are the entries `first[i]` to `first[i + 1]` of `target`, `ways`, `bearings` and
     `lengths`, in the order in which the agent is told of them.
-
-    Attributes:
-        name: what the world is called.
-        places: the ids of the nodes.
-        sensors: names of the sensors.
-        labels: of each sensor, the label at each place.
-        motions: the actions.
-        pose: what is told of a pose; see `POSES`.
-        first: `[R + 1]`.
-        target: `[W]` the number of the place that each way leads to.
-        ways: `[W]` labels, no two alike at one place.
-        bearings: `[W]` degrees, 0 is +y, clockwise; None where unknown.
-        lengths: `[W]` in the unit of the file; None where unknown.
-        coordinates: `[R, 2 or 3]` where each place lies; None where unknown.
     """
 
-    name: str
-    places: tuple[Any, ...]
-    sensors: tuple[str, ...]
-    labels: tuple[tuple[Any, ...], ...]
-    motions: Motions
-    pose: str
-    first: NDArray[np.int64]
-    target: NDArray[np.int32]
-    ways: tuple[Any, ...]
-    bearings: Floats | None
-    lengths: Floats | None
-    coordinates: Floats | None
+    name: str  # what the world is called
+    places: tuple[Any, ...]  # the ids of the nodes
+    sensors: tuple[str, ...]  # names of the sensors
+    labels: tuple[tuple[Any, ...], ...]  # of each sensor, the label at each place
+    motions: Motions  # the actions
+    pose: str  # what is told of a pose; see `POSES`
+    first: NDArray[np.int64]  # `[R + 1]`
+    target: NDArray[np.int32]  # `[W]` the number of the place that each way leads to
+    ways: tuple[Any, ...]  # `[W]` labels, no two alike at one place
+    bearings: Floats | None  # `[W]` degrees, 0 is +y, clockwise; None where unknown
+    lengths: Floats | None  # `[W]` in the unit of the file; None where unknown
+    coordinates: Floats | None  # `[R, 2 or 3]` where each place lies; None where unknown
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Layout) and self._digest == other._digest

@@ -33,7 +33,7 @@ class Growing(Protocol):
 
 
 class Pose(ModelFactor):
-    """Where a place is, by the agent's own reckoning: P(p | s), and how actions change it.
+    """The agent's estimate of where a place is: P(p | s), and how actions change it.
 
     Poses are numbers; what a number stands for is in `positions`.
 
@@ -149,14 +149,21 @@ class Pose(ModelFactor):
     def imagine(self, place: int, source: int, action: int) -> None:
         """A place of which no position is known was imagined behind a way."""
 
+    def spare(self) -> int | None:
+        """A place that was imagined, and to which no way leads any more; None if there is none."""
+        return None
+
     def arrive(self, model: Growing, place: int, percept: Percept, *, step: int) -> None:
         """Before inference: a way was walked from `place`; have it lead where it was measured to lead."""
 
     def look(self, model: Growing, place: int, percept: Percept, *, step: int) -> None:
         """After inference, where the agent is certain: it is in `place`, and senses its ways."""
 
-    def guessed(self, ways: Transition) -> Sequence[tuple[int, int, float]]:
-        """Place and action of the ways never walked that are only thought to lead where they do; and a doubt."""
+    def guessed(self, ways: Transition, places: Sequence[int] | None = None) -> Sequence[tuple[int, int, float]]:
+        """Place, action and doubt, above 0, of the ways never walked that may lead elsewhere than is thought.
+
+        Those of these `places`, or of all.
+        """
         return ()
 
     def steps_in(self, place: int) -> tuple[int, ...]:

@@ -44,7 +44,7 @@ class Hidden:
         self._least = SHORT * float(lengths.mean()) if len(lengths) else 1.0
         lengths = np.maximum(lengths, self._least)
         self._one = np.log(lengths)
-        self._two = np.log(np.add.outer(lengths, lengths)).ravel()
+        self._two = np.log(np.add.outer(lengths, lengths)[np.triu_indices(len(lengths))])
         self._straight, alone = _straight(bearings)
         self._least_odds = -float(np.log(max(back * alone, LEAST_SPARED)))
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..base import Floats, Ints
 from .base import Growing
-from .metric import MetricPose
+from .metric import SPARE, MetricPose
 from .odometer import direction
 from .relaxing import drift
 from .ways_between import ROUGH, between
@@ -91,7 +91,10 @@ class Joining:
         if place is None or self._model.visits.visited.values[place]:
             return
         if self._pose.source.values[place].tolist() == [source, action]:
-            self._pose.source.set((place, 0), -1)
+            alone = (
+                self._pose.lengths.values[source, action] < 0.0
+            )  # else ways of others may have been told to lead there
+            self._pose.source.set((place, 0), SPARE if alone else -1)
 
     def returns(self, place: int, action: int, there: int) -> None:
         """The way back from a place entered before is the one that points here, whatever was thought of it."""

@@ -25,7 +25,7 @@ MANY = 2**25  # entries of B_p that a file may ask for whose map has few places
 
 
 class Lattice(Pose):
-    """A place has one position, relative to where the agent woke up, and a position one place.
+    """Positions on a lattice, relative to the start. A place has one position, and a position one place.
 
     Of places that the agent was put into without knowing where they are, positions are relative to the first of them:
     such a position has the number of the fragment as a last coordinate, and `position` gives None.

@@ -20,6 +20,7 @@ from .relaxing import AXES, Measured, around, drift, relaxed, straightened
 UNKNOWN = 1e18
 """Stands for a coordinate that nobody knows."""
 
+SPARE = -2  # in place of the place that one was imagined behind, if no way leads to it any more
 RECENT = 4  # visits whose time is kept with a place
 TOLD = 1e-4  # likelihood of what was measured where a move led elsewhere than it was found to lead
 CLOSED = 1e-3  # mean lengths of a way by which a loop may be open and positions stay as they are
@@ -36,7 +37,8 @@ class MetricPose(NoPose):
         where: `[S, 3]` positions of places that were entered; `UNKNOWN` where nobody knows.
         bearings: `[S, K]` degrees of each way as it was seen; -1 where none was.
         lengths: `[S, K]` how long each way was told to be; -1 where nobody said.
-        source: `[S, 2]` the place and the action that a place was imagined behind; -1 of none.
+        source: `[S, 2]` the place and the action that a place was imagined behind; -1 of none, `SPARE` of one to which
+            no way leads any more.
         been: `[S, 4]` the last steps at which the agent was there; -1 of none.
         walks: `[2 S, 7]` the ways that were walked; see `WALK`.
         heading: radians, anticlockwise, by which what the agent takes for north has turned, where no bearings are seen.
@@ -52,7 +54,7 @@ class MetricPose(NoPose):
         log, size = context.changes, len(context.motions)
         self.where = Column("where", np.float64, width=AXES, fill=UNKNOWN, changes=log)
         self.bearings = Column("bearings_of", np.float64, width=size, fill=-1.0, changes=log)
-        self.lengths = Column("lengths_of", np.float64, width=size, fill=-1.0, changes=log)
+        self.lengths = Column("lengths_of", np.float32, width=size, fill=-1.0, changes=log)
         self.source = Column("source", np.int64, width=2, fill=-1, changes=log)
         self.been = Column("been", np.int64, width=RECENT, fill=-1, changes=log)
         self.walks = Column("walks", np.float64, width=WALK, fill=-1.0, changes=log)
@@ -153,6 +155,11 @@ class MetricPose(NoPose):
         where = self.where.values[some]
         apart = np.linalg.norm(where[:, None] - where, axis=2).mean()
         return Hidden(lengths, self.bearings.values[some], float(apart) / self.length)
+
+    def spare(self) -> int | None:
+        """See `Joining.forget`."""
+        spare = np.flatnonzero((self.source.values[:, 0] == SPARE) & ~self.context.visits.visited.values)
+        return int(spare[0]) if len(spare) else None
 
     def imagine(self, place: int, source: int, action: int) -> None:
         """A place was imagined behind a way: it lies in the direction of its bearing."""

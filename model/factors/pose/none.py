@@ -11,7 +11,7 @@ from .base import Ahead, Pose
 
 
 class NoPose(Pose):
-    """Every place has the same pose, which says nothing."""
+    """No positions: every place has the same pose, which carries no information."""
 
     def attach(self, context: Context) -> None:
         """Make it part of a model."""

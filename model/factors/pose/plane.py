@@ -22,7 +22,7 @@ DOUBTED = 4.0  # nats against a place hidden on a way from which on nobody doubt
 
 
 class Plane(MetricPose):
-    """A place lies where displacements lead to, relative to where the agent woke up, as far as they can be trusted.
+    """Positions in the plane, in metres, relative to the start, with uncertain displacements.
 
     Observations have `displacement`, what was measured of the last move, or `bearings` (see `Bearings`), or both. How
     far measurements err is learned (see `Odometer`). What they say of a loop that closes is more than is needed, and
@@ -94,27 +94,28 @@ class Plane(MetricPose):
             joining.join(place)
             joining.meet(place)
 
-    def guessed(self, ways: Transition) -> Sequence[tuple[int, int, float]]:
-        """Ways between places that were entered, walked in neither direction; doubted if longer than is usual."""
-        places = self.context.visits.order.values
-        if not len(places):
-            return ()
-        targets, walked = ways.targets(places), ways.walked.values[places]
+    def guessed(self, ways: Transition, places: Sequence[int] | None = None) -> Sequence[tuple[int, int, float]]:
+        """Ways between places that were entered, walked in neither direction, on which a place may be hidden."""
         first = self.context.visits.first.values
-        known = (targets >= 0) & (first[targets] >= 0)
-        size = len(self.context.visits.first)
-        pair = places[:, None] * size + targets
-        met = np.isin(targets * size + places[:, None], pair[walked & known])  # the way back was walked
-        ordered = np.sort(np.where(self.bearings.values[places] >= 0.0, targets, -1 - np.arange(targets.shape[1])))
-        twins = {(int(r), int(ordered[r, c])) for r, c in np.argwhere(ordered[:, 1:] == ordered[:, :-1])}
+        at = self.context.visits.order.values if places is None else np.array(places, dtype=np.int64)
+        at = at[(at < len(first)) & (first[np.minimum(at, len(first) - 1)] >= 0)] if len(at) else at
+        if not len(at):
+            return ()
+        targets, walked = ways.targets(at), ways.walked.values
         hidden, found = self.hidden(), list[tuple[int, int, float]]()
-        for row, action in np.argwhere((self.bearings.values[places] >= 0.0) & known & ~walked).tolist():
-            there = int(targets[row, action])
-            if not met[row, action] or (row, there) in twins:  # of two that lead there one leads elsewhere
-                apart = np.linalg.norm(self.where.values[there] - self.where.values[places[row]])
-                doubt = max(hidden.odds(float(apart), rough=None) + DOUBTED, 0.0)
-                found.append((int(places[row]), action, doubt))
+        known = (targets >= 0) & (first[targets] >= 0) & (self.bearings.values[at] >= 0.0) & ~walked[at]
+        for row, action in np.argwhere(known).tolist():
+            place, there = int(at[row]), int(targets[row, action])
+            if np.count_nonzero(targets[row] == there) > 1:  # one of the two leads elsewhere
+                found.append((place, action, DOUBTED))
+            elif self.lengths.values[place, action] < 0.0 and not self._walked_back(ways, there, place):
+                apart = float(np.linalg.norm(self.where.values[there] - self.where.values[place]))
+                doubt = hidden.odds(apart, rough=None) + DOUBTED
+                found += [(place, action, doubt)] * (doubt > 0.0)
         return found
+
+    def _walked_back(self, ways: Transition, place: int, to: int) -> bool:
+        return any(ways.beyond(place, action) == to for action in np.flatnonzero(ways.walked.values[place]).tolist())
 
     def _told_twice(self, model: Growing, place: int, percept: Percept) -> float:
         """One over P(ways as sensed | place): bearings that are seen tell already which ways there are."""

@@ -1,0 +1,54 @@
+"""Beginning anew: the later steps told to a tracker that knows nothing, and what its map makes of all before them.
+
+What was taken for one place too early is seldom taken apart again, for all that came later was put on top of it, and
+such a map grows for ever. A map of the later steps alone does not have that fault. By the chain rule
+
+    log P(all steps) = log P(later steps) + log P(earlier steps | map of the later ones)
+
+it is weighed against the map that there is, so that what was learned early is given up only where it was worth nothing.
+"""
+
+from __future__ import annotations
+
+from .hypothesis import Hypothesis
+from .rates import ASTRAY, ELSEWHERE, FAILS, MOVED, RELINKED, UNDONE
+
+FIRST, LATER = 32, 256
+"""Steps after which it is tried first; and steps between two tries at most."""
+
+SHARES = (0.5, 0.25, 0.125)
+"""Shares of the steps that are left out, in turn."""
+
+ODD = 0.5
+"""How many oddities make a map doubtful."""
+
+
+def is_odd(h: Hypothesis, tries: int) -> bool:
+    """Whether ways lead off the chart or not back, or were thought to lead elsewhere, or the agent was moved.
+
+    Moves that fail or go astray are common, and maps are mostly right then: these count every other time.
+    """
+    counts = h.counts
+    odd = counts.yes[ELSEWHERE] + counts.yes[MOVED] + counts.yes[RELINKED] + counts.no[UNDONE]
+    return odd + (tries % 2) * (counts.of(FAILS)[0] + counts.of(ASTRAY)[0]) > ODD
+
+
+def tries_until(time: int, tries: int) -> int:
+    """How many times it is begun anew until a step: each time half as late again, so that steps are told few times."""
+    due = _due(tries)
+    while due <= time:
+        tries += 1
+        due = _due(tries)
+    return tries
+
+
+def _due(tries: int) -> int:
+    due = FIRST
+    for _ in range(tries):
+        due += min(due // 2, LATER)
+    return due
+
+
+def first_told(start: int, time: int, tries: int) -> int:
+    """The first of the steps that are told."""
+    return start + 1 + int(SHARES[tries % len(SHARES)] * (time - start))

@@ -1,0 +1,31 @@
+"""Ways that are only thought to lead where they do, kept from plan to plan until something changes at their place."""
+
+from __future__ import annotations
+
+from .view import MapView
+
+
+class Doubts:
+    """The ways of one map that are worth seeing about, by place; costs what has changed.
+
+    Args:
+        map_: the map.
+    """
+
+    __slots__ = ("_map", "_of", "_read")
+
+    def __init__(self, map_: MapView) -> None:
+        self._map, self._read = map_, -1  # of the log of changes
+        self._of: dict[int, list[tuple[int, float]]] = {}
+
+    def read(self) -> dict[int, list[tuple[int, float]]]:
+        """For each place with such ways the action and the doubt of each."""
+        map_ = self._map
+        changed, self._read = map_.changed_places(self._read, map_.B_s, map_.visits, map_.transitions.walked)
+        if changed is None:
+            self._of.clear()
+        for place in changed or ():
+            self._of.pop(place, None)
+        for place, action, doubt in map_.pose.guessed(map_.transitions, None if changed is None else sorted(changed)):
+            self._of.setdefault(place, []).append((action, doubt))
+        return self._of
