@@ -18,7 +18,7 @@ _LOOKS, _TRIES, _PATIENCE = 40, 400, 12
 _LOST, _LOST_IN_NOISE = 13.0, 20.0
 """Nats by which the best pose must be worse than one of which nothing is known, for nothing that was expected to be
 seen; in noise three tiles may have been misread."""
-_STRAIGHT = 0.95  # belief in the way it faces, from which on it leaves a room
+_STRAIGHT = 0.995  # belief in the way it faces, from which on it leaves a room
 _CHECKS = 60  # steps that making sure of that may take
 _AGAIN = 3  # looks that it takes before it gives a way up that it sees, where its eyes are bad
 _PASSAGE = 5.0  # tiles that a passage is expected to have before any was walked
@@ -43,6 +43,7 @@ class MiniGridBody:
         glance: low-level steps that looking at walls which it has not seen may cost where it arrives.
 
     Attributes:
+        image: what it saw last.
         steps: low-level steps taken.
         ended: whether the world has ended the episode.
         reward: the sum of what it was given.
@@ -214,7 +215,8 @@ class MiniGridBody:
         self._sense(action, observation)
 
     def _sense(self, action: int, observation: Any) -> None:
-        view, meant = self._eyes.look(observation["image"]), moved(self.pose, action, self._known)
+        self.image = observation["image"]
+        view, meant = self._eyes.look(self.image), moved(self.pose, action, self._known)
         limit = _LOST_IN_NOISE if self._eyes.noise else _LOST
         self._where.update(action, view, most=limit)
         self._odd = self._odd + 1 if self._where.misfit > limit else 0
@@ -230,7 +232,8 @@ class MiniGridBody:
         self._given_up.clear()
         self._barred.clear()
         self._where.set((*self._seed, heading), known)
-        known.add(self.pose, self._eyes.look(observation["image"]))
+        self.image = observation["image"]
+        known.add(self.pose, self._eyes.look(self.image))
 
     def _through(self, way: int, limit: int) -> str:
         """Follow the passage of a way to the floor beyond."""

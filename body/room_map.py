@@ -90,9 +90,14 @@ class RoomMap:
         return new
 
     def log_likelihood(self, poses: NDArray[np.int64], view: View) -> NDArray[np.float64]:
-        """`[n]` log P(view | pose) of each pose `[n, 3]`; tiles of which nothing is known count as novel."""
-        tile = self.at(poses)
+        """`[n]` log P(view | pose) of each pose `[n, 3]`; tiles of which nothing is known count as novel.
+
+        A tile that was misread is another one: what contradicts it counts no more than it is sure.
+        """
+        x, y = _places(poses)
+        tile = self.tile[y, x]
         each = view.log_likelihood[np.arange(len(view.tile))[None, :], np.maximum(tile, 0)]
+        each = np.maximum(each, -self._sure[y, x])
         novel = (tile == UNKNOWN) & view.seen
         return (each * (view.seen & ~novel)).sum(axis=1) - np.minimum(_NOVEL * novel.sum(axis=1), _MOST_NOVEL)
 

@@ -15,7 +15,7 @@ LEFT, RIGHT, FORWARD, PICKUP, DROP, TOGGLE, NOTHING = range(7)
 
 UP = 3  # The way a body faces where it wakes up, whatever that is in the world
 SURE = 0.7  # Belief in one pose from which on it counts as known
-_KEEP, _FEW = 1e-4, 40
+_KEEP, _FEW = 1e-4, 16  # of each way to face: where it stands shows sooner, and matters less
 _TELLING = 3  # tiles that differ, from which on a view tells two beliefs apart
 
 
@@ -91,7 +91,8 @@ class Whereabouts:
             for known, poses, log_p in parts
             for pose, p in zip(poses, log_p, strict=True)
         ]
-        every = sorted((one for one in every if one[0] >= _KEEP), key=lambda one: (-one[0], one[1]))[:_FEW]
+        every = sorted((one for one in every if one[0] >= _KEEP), key=lambda one: (-one[0], one[1]))
+        every = [one for way in range(4) for one in [some for some in every if some[1][2] == way][:_FEW]]
         taken, new = set[int](), list[Guess]()
         for weight, pose, known in every:
             mine = known if id(known) not in taken else known.copy()

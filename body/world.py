@@ -113,6 +113,12 @@ class EmbodiedWorld(gym.Env[Observation, Any]):
         white = [step for step in self.rooms.tally.white if step >= begin]
         return (white[0] if white else self.body.steps) - begin
 
+    @property
+    def pixels(self) -> Any:
+        """`[56, 56, 3]` what the body saw last, as it looks; for replays."""
+        image = self.body.image
+        return image if len(image) > 7 else mg.paint(image)
+
     def scene(self, *, pixels: int = 16) -> tuple[Any, Any]:
         """The world from above, `[height, width, 3]`, and the path so far, `[n, 2]` in its pixels: for pictures."""
         rooms = self.rooms

@@ -9,6 +9,7 @@ from typing import Any
 
 import networkx as nx
 from cogmap.agent import Agent
+from cogmap.model import FactorGraph, window_graph
 from cogmap.views import Recorder, Recording
 from cogmap.worlds import MazeEnv, load_world
 from parts import agent_with
@@ -66,9 +67,22 @@ def eventful(steps: int = 90, **options: Any) -> Recording:
 
 
 @cache
+def witnessed_walk() -> tuple[Recording, list[nx.MultiDiGraph[Any]], list[FactorGraph]]:
+    """`eventful()`, made once, with the map after every step and the window's graph after each of the first 60."""
+    maps: list[nx.MultiDiGraph[Any]] = []
+    graphs: list[FactorGraph] = []
+
+    def witness(agent: Agent) -> None:
+        maps.append(agent.map.to_networkx())
+        if agent.steps <= 60:
+            graphs.append(window_graph(agent.map, agent.window))
+
+    return eventful(after=witness), maps, graphs
+
+
 def eventful_walk() -> Recording:
     """`eventful()`, made once."""
-    return eventful()
+    return witnessed_walk()[0]
 
 
 @cache

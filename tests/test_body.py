@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import io
 import subprocess
 import sys
 from pathlib import Path
@@ -9,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from cogmap.agent import Agent
 from cogmap.body import Body, EmbodiedWorld, Eyes, MiniGridBody, embodied, load_embodied
 from cogmap.experiments import explore, kidnap, navigate, run, walk
 from cogmap.model import CogmapError
@@ -217,6 +220,37 @@ def test_pictures_have_the_parts_of_the_papers_figure(tmp_path: Path) -> None:
     file = tmp_path / "figure.svg"
     assert cogmap("explore", "minigrid:1x3", "--out", file).exit_code == 0
     assert file.stat().st_size > 10_000
+
+
+def test_a_replay_shows_the_pixels_beside_the_map(tmp_path: Path) -> None:
+    from cogmap.views import Recorder, Recording, replay_html
+    from PIL import Image
+
+    file = tmp_path / "walk.json"
+    assert (
+        cogmap("explore", "minigrid:1x3", "--view", "rgb", "--trace", file, "--out", tmp_path / "a.svg").exit_code == 0
+    )
+    recording = Recording.load(file)
+    pictures = [frame["pixels"] for frame in recording.frames]
+    shown = replay_html(recording)
+    assert all(picture in shown for picture in pictures)
+    first = np.asarray(Image.open(io.BytesIO(base64.b64decode(pictures[0].partition(",")[2]))))
+    assert first.shape == (56, 56, 3)
+    world = embodied("t_maze")
+    agent, (seen, _) = Agent(world.motions, seed=0), world.reset(seed=0)
+    agent.step(seen)
+    recorder = Recorder()
+    for wrong in (np.zeros((4, 4)), np.zeros((4, 4, 3))):
+        with pytest.raises(CogmapError, match="no RGB"):
+            recorder.add(agent, pixels=wrong)
+    recorder.add(agent, pixels=world.pixels)
+    kept = np.asarray(Image.open(io.BytesIO(base64.b64decode(recorder.recording().frames[0]["pixels"][22:]))))
+    assert np.array_equal(kept, paint(world.rooms.symbols))
+    damaged = recorder.recording().data
+    damaged["frames"][0]["pixels"] = "https://example.org/a.png"
+    recorder.save(file)
+    with pytest.raises(CogmapError, match="pixels of frame 0"):
+        Recording.load(file)
 
 
 def test_halls_have_four_colours() -> None:

@@ -13,11 +13,13 @@ import pytest
 from charts import row
 from cogmap.agent import Agent, Settings
 from cogmap.inference import infer
-from cogmap.model import CogmapError, Sight, Ways, decode, encode, window_graph
+from cogmap.model import CogmapError, Sight, Ways, decode, encode
 from cogmap.views import Recorder, Recording
 from cogmap.worlds import load_world
-from recordings import close_elsewhere, eventful, eventful_walk, kidnaps, outline, probabilities, recorded
+from recordings import close_elsewhere, eventful_walk, kidnaps, outline, probabilities, recorded, witnessed_walk
 from walks import GRID
+
+pytestmark = pytest.mark.xdist_group("recording")  # one walk is made once, and looked at by many
 
 
 @pytest.fixture(scope="module")
@@ -26,8 +28,7 @@ def recording() -> Recording:
 
 
 def test_the_map_is_rebuilt_at_every_step() -> None:
-    truths: list[Any] = []
-    kept = eventful(after=lambda agent: truths.append(agent.map.to_networkx()))
+    kept, truths, _ = witnessed_walk()
     assert any(frame["revised"] for frame in kept.frames)
     assert any(frame.get("closed_rooms") for frame in kept.frames)
     assert any(not frame["certain"] for frame in kept.frames)
@@ -48,8 +49,8 @@ def test_the_map_is_rebuilt_at_every_step() -> None:
 def test_the_map_is_rebuilt_however_it_grows_and_fades(settings: dict[str, Any]) -> None:
     truths: list[Any] = []
     world = load_world("tolman")
-    events = {**kidnaps(12, 60, (6, 2), (0, 2)), 30: lambda world, _: close_elsewhere(world, (3, 2))}
-    kept = recorded(world, 70, events=events, after=lambda agent: truths.append(agent.map.to_networkx()), **settings)
+    events = {**kidnaps(12, 48, (6, 2), (0, 2)), 30: lambda world, _: close_elsewhere(world, (3, 2))}
+    kept = recorded(world, 50, events=events, after=lambda agent: truths.append(agent.map.to_networkx()), **settings)
     for truth, picture in zip(truths, kept.maps(), strict=True):
         found = picture.to_networkx()
         assert outline(found) == outline(truth)
@@ -67,12 +68,11 @@ def test_little_is_written_where_nothing_is_new(recording: Recording) -> None:
 
 
 def test_the_window_is_rebuilt_at_every_step() -> None:
-    graphs: list[Any] = []
-    kept = eventful(steps=60, after=lambda agent: graphs.append(window_graph(agent.map, agent.window)))
+    kept, _, graphs = witnessed_walk()
     scopes: dict[str, tuple[str, str, tuple[str, ...]]] = {}
     times: dict[str, int] = {}
     tops: dict[str, tuple[Any, float]] = {}
-    for frame, graph in zip(kept.frames, graphs, strict=True):
+    for frame, graph in zip(kept.frames[: len(graphs)], graphs, strict=True):
         window = frame["window"]
         times |= {name: time for name, time, *_ in window["variables"]}
         scopes |= {

@@ -12,6 +12,7 @@ from ..model import CogmapError, decode, encode, plain, shown, window_graph
 from ..planning import Term
 from ..worlds import Chart, Place
 from .map_picture import KNOWN, MapPicture
+from .pixels import small_png
 from .recording_check import check
 from .recording_file import FORMAT, SCHEMA, read, upgraded, write
 from .recording_frames import NUMBERS, WindowWatch, plan_frame, term_json, world_json
@@ -19,6 +20,7 @@ from .speaking import Spoken, spoken
 from .world_plot import as_place, world_picture
 
 DIGITS = 4
+MOST_PIXELS = 8_000_000  # bytes
 MOST_PLACES = 8  # places of the belief that are kept, the most probable ones
 
 
@@ -95,6 +97,7 @@ class Recorder:
         self._agent: Agent | None = None
         self._frames: list[dict[str, Any]] = []
         self._origin: int | None = None
+        self._seen = 0  # bytes of pictures
         self._window = WindowWatch()
         self._terms: dict[str, Term] = {}  # of all plans
         self._named: list[tuple[str, ...]] = []  # those of each
@@ -103,19 +106,26 @@ class Recorder:
         return len(self._frames)
 
     def add(
-        self, agent: Agent, *, place: Place = None, closed_rooms: Iterable[Any] = (), closed_doors: Iterable[Any] = ()
+        self,
+        agent: Agent,
+        *,
+        place: Place = None,
+        pixels: Any = None,
+        closed_rooms: Iterable[Any] = (),
+        closed_doors: Iterable[Any] = (),
     ) -> None:
         """Record the step that the agent has just made, before its action is carried out.
 
         Args:
             agent: always the same.
             place: the true place it is in, for showing only.
+            pixels: `[height, width, 3]` what a body sees there, kept in the first `MOST_PIXELS` bytes of such pictures.
             closed_rooms: places closed at present.
             closed_doors: doors closed by themselves, as pairs of places.
 
         Raises:
             CogmapError: another agent, one that has made no step since the last call, a place that the chart does
-                not have, or a label that JSON has not.
+                not have, pixels that are no RGB, or a label that JSON has not.
         """
         record = self._fresh(agent)
         frame = _frame(agent, record)
@@ -123,6 +133,9 @@ class Recorder:
             frame["at"] = self._number(place)
             if record.step == 0:  # the agent calls the place where it wakes the origin
                 self._origin = frame["at"]
+        if pixels is not None and self._seen < MOST_PIXELS:
+            frame["pixels"] = small_png(pixels)
+            self._seen += len(frame["pixels"])
         if rooms := sorted(map(self._number, closed_rooms)):
             frame["closed_rooms"] = rooms
         if doors := sorted(sorted(map(self._number, door)) for door in closed_doors):

@@ -5,6 +5,7 @@ from typing import Any
 
 from ..model import decode
 from .map_picture import MapPicture
+from .pixels import PNG
 from .recording_frames import NUMBERS, TERM
 
 Fits = Callable[[Any], bool]
@@ -69,6 +70,7 @@ def _frame(data: dict[str, Any], frame: dict[str, Any], places: int) -> Shape:
         "ways": [_way(place, action, _below(len(data["known"])))],
     }
     optional = {"open": (_or_none(_share),) * actions, "at": at, "closed_rooms": [at], "closed_doors": [(at, at)]}
+    optional["pixels"] = _picture
     return {
         **dict.fromkeys(("step", "rest", *NUMBERS), _number),
         **{name: shape for name, shape in optional.items() if name in frame},
@@ -125,6 +127,10 @@ def _or_none(shape: Shape) -> Fits:
 def _way(place: Fits, action: Fits, known: Fits) -> Fits:
     """Where one action leads: a place, the action, how that is known, and pairs of a place and a probability."""
     return lambda row: len(row) % 2 == 1 and _fits(row, (place, action, known, *(place, _number) * (len(row) // 2 - 1)))
+
+
+def _picture(value: Any) -> bool:
+    return _text(value) and value.startswith(PNG)
 
 
 def _share(value: Any) -> bool:

@@ -30,7 +30,9 @@ class Tracing:
         if self._recorder is not None and isinstance(moment.agent, Agent):
             world = moment.world.unwrapped
             closed = {name: getattr(world, name, ()) for name in ("closed_rooms", "closed_doors")}
-            self._recorder.add(moment.agent, place=place_of(moment.info), **closed)
+            self._recorder.add(
+                moment.agent, place=place_of(moment.info), pixels=getattr(world, "pixels", None), **closed
+            )
 
     def save(self) -> None:
         """Write the file."""

@@ -2,15 +2,17 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from typing import Any
+
+import numpy as np
 
 from ...agent import Settings
 from ...views import BLUE, GREEN, GREY, ORANGE, VERMILION
 from ...worlds import MAZES, Label, Maze, Position
 from .. import WEIGHT, Moment, Parts, Session, set_out, shortest
 from .figures import Figure, legend_below, panels, plot_line
-from .goals import ALIASED, draw_goal
+from .goals import ALIASED
 from .grid import NONE
 from .intervals import Interval, bootstrap
 from .study import Findings, Study
@@ -36,17 +38,17 @@ class WayTo:
 
     shortest: int  # steps of the shortest path from where it sets out
     steps: int | None  # until it chose to stay there; None if it did not within `MOST`
+    goal: Label
 
 
 @dataclass(frozen=True, slots=True)
 class DistanceRow:
-    """An agent with one maze and one goal, set out once from each distance."""
+    """An agent in one maze, set out once from each distance, each time to a goal that is drawn."""
 
     world: str
     aliased: bool  # whether several rooms of the maze look alike
     model: str  # one of `MODELS`
     seed: int
-    goal: Label
     learned: bool  # whether it knew the maze before, if it was to
     ways: tuple[WayTo, ...]  # none where it did not learn the maze
 
@@ -54,8 +56,9 @@ class DistanceRow:
 class Distances(Study[tuple[str, str, int], DistanceRow]):
     """Steps to the goal by distance
 
-    How many moves to a preferred sight from rooms at every distance, for an agent with a map and without, and for
-    clone-structured graphs, with sights alone and with positions, each with the map that it learned?
+    How many moves does it take to a preferred sight from rooms at every distance, for an agent with a map and without,
+    and for clone-structured graphs, with sights alone and with positions, each with the map that it learned? Each run
+    sets out once from every distance that the maze has, so that there is one run a distance and maze for each agent.
     """
 
     name = "distances"
@@ -68,25 +71,26 @@ class Distances(Study[tuple[str, str, int], DistanceRow]):
     )
 
     def tasks(self, seeds: Sequence[int], settings: Settings) -> list[tuple[str, str, int]]:
-        """Each maze with each model and every seed, which draws goal, starts and agent."""
+        """Each maze with each model and every seed, which draws goals, starts and agent."""
         return [(world, model, seed) for world in PAPERS for model in MODELS for seed in seeds]
 
     def run(self, task: tuple[str, str, int], settings: Settings) -> DistanceRow:
         world, model, seed = task
         maze, known = MAZES[world], model != "cogmap_unknown"
-        goal, parts = draw_goal(maze, seed), Parts(MODELS[model][0], settings)
+        parts = Parts(MODELS[model][0], settings)
         session = set_out(self.name, maze, seed, agent=parts, max_steps=CAP)
         if known:
             session.explore()
             session.agent.learning = False  # of a CSCG; cogmap has no such switch and goes on
         ways: list[WayTo] = []
-        for distance, rooms in by_distance(maze, goal).items() if session.steps is not None or not known else ():
+        for distance, goals in by_distance(maze).items() if session.steps is not None or not known else ():
             if not known:
                 session = set_out(self.name, maze, seed, agent=parts, max_steps=CAP)
-            session.displace(elsewhere=False, but=set(maze.rooms) - rooms)
-            ways.append(WayTo(distance, _steps_to(session, goal)))
+            goal = list(goals)[int(np.random.default_rng([seed, distance]).integers(len(goals)))]
+            session.displace(elsewhere=False, but=set(maze.rooms) - goals[goal])
+            ways.append(WayTo(distance, _steps_to(session, goal), goal))
         aliased = len(set(maze.sights.values())) < len(maze.rooms)
-        return DistanceRow(world, aliased, model, seed, goal, session.steps is not None, tuple(ways))
+        return DistanceRow(world, aliased, model, seed, session.steps is not None, tuple(ways))
 
     def summarise(self, rows: Sequence[DistanceRow]) -> Findings:
         cells = summarised(rows)
@@ -106,11 +110,13 @@ class Distances(Study[tuple[str, str, int], DistanceRow]):
         return Findings({"weight": WEIGHT, "most": MOST, "rows": rows}, lines, figures, tables, failed)
 
 
-def by_distance(maze: Maze, goal: Label) -> dict[int, set[Position]]:
-    """The rooms from which the shortest path to the sight has that many steps, from 1 on."""
-    found: dict[int, set[Position]] = {}
-    for room in maze.rooms:
-        found.setdefault(shortest(maze, room, goal) or 0, set()).add(room)
+@cache
+def by_distance(maze: Maze) -> dict[int, dict[Label, set[Position]]]:
+    """By steps of the shortest path, from 1 on: the sights, and the rooms that lie so far from each."""
+    found: dict[int, dict[Label, set[Position]]] = {}
+    for goal in dict.fromkeys(maze.sights[room] for room in maze.rooms):
+        for room in maze.rooms:
+            found.setdefault(shortest(maze, room, goal), {}).setdefault(goal, set()).add(room)
     return {distance: found[distance] for distance in sorted(found) if distance}
 
 
@@ -145,8 +151,8 @@ def _failure(row: DistanceRow) -> str:
     who = f"{row.world}, {MODELS[row.model][1]}, seed {row.seed}"
     if not row.ways:
         return f"{who}: not learned after {CAP} moves"
-    lost = [str(way.shortest) for way in row.ways if way.steps is None]
-    return f"{who}: goal {row.goal} not reached from distance {', '.join(lost)}" if lost else ""
+    lost = [f"{way.goal} from distance {way.shortest}" for way in row.ways if way.steps is None]
+    return f"{who}: not reached: goal {', '.join(lost)}" if lost else ""
 
 
 def _flat(rows: Sequence[DistanceRow]) -> list[dict[str, Any]]:

@@ -10,8 +10,14 @@ it is weighed against the map that there is, so that what was learned early is g
 
 from __future__ import annotations
 
-from .hypothesis import Hypothesis
+from collections.abc import Sequence
+from operator import add
+from operator import sub as minus
+
+from ...model import Periods
+from .hypothesis import Hypothesis, settle_alike
 from .rates import ASTRAY, ELSEWHERE, FAILS, MOVED, RELINKED, UNDONE
+from .records import Place
 
 FIRST, LATER = 32, 256
 """Steps after which it is tried first; and steps between two tries at most."""
@@ -52,3 +58,23 @@ def _due(tries: int) -> int:
 def first_told(start: int, time: int, tries: int) -> int:
     """The first of the steps that are told."""
     return start + 1 + int(SHARES[tries % len(SHARES)] * (time - start))
+
+
+def lay_over(hypotheses: Sequence[Hypothesis], frame: int, here: Place) -> None:
+    """Lay a chart over the first one, which is gone: the agent is where it was there, as the best one has it."""
+    place, laid = hypotheses[0].places[hypotheses[0].here], dict[tuple[int, Periods], Place]()
+    known = here.frame == 0 and place.frame == frame
+    shift = tuple(map(minus, here.position, place.position)) if known else (0,) * len(place.position)
+    for h in hypotheses:
+        periods = h.periods.get(frame, ())
+        if periods:
+            h.periods[0] = h.periods.pop(frame)
+        numbers = [number for number in h.places if h.places[number].frame == frame]
+        for number in numbers:
+            before = h.places[number]
+            del h.at[frame, before.position]
+            position = h.canonical(0, tuple(map(add, before.position, shift)))[1]
+            after = before._replace(frame=0, position=position)
+            h.at[0, position] = number
+            h.put(number, laid.setdefault((id(before), periods), after))
+    settle_alike(hypotheses)

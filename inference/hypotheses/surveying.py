@@ -8,7 +8,7 @@ along is found only if it is asked of the whole walk: where places lie to each o
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from heapq import nlargest
 from math import lgamma
 from operator import add
@@ -110,12 +110,15 @@ def _laid_out(like: Hypothesis, history: History) -> Mapping[int, Position]:
 
 def _with(like: Hypothesis, moves: Moves, layout: _Layout, label: int) -> Iterator[_Layout]:
     """The layout with one label more, in each place beside those from or to which moves lead."""
-    displacements = like.scheme.displacements
+    displacements, taken = like.scheme.displacements, {*layout.at.values()}
     assert displacements is not None
     ways = {displacements[way]: way for way in like.awake}
     near = {other: at for other, at in layout.at.items() if (other, label) in moves or (label, other) in moves}
-    ahead = {tuple(map(add, at, by)) for at in (near or layout.at).values() for by in ways}
-    for there in sorted(ahead.difference(layout.at.values())):
+
+    def free(places: Iterable[Position]) -> set[Position]:
+        return {tuple(map(add, at, by)) for at in places for by in ways} - taken
+
+    for there in sorted(free(near.values()) or free(taken)):  # somewhere else where all places beside those are taken
         led = dict(layout.led)
         for other, at in near.items():
             for one, to, by in (

@@ -8,7 +8,7 @@ from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
-from .afresh import first_told, is_odd, tries_until
+from .afresh import first_told, is_odd, lay_over, tries_until
 from .attempts import CONTRADICTED, NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
@@ -268,6 +268,8 @@ class Tracker:
         gain = other.history.norm(first) + earlier - history.norm(history.start + 1)
         if other.best.weight + gain <= found[0].weight:
             return found
+        if self.scheme.displacements is not None:
+            lay_over(other.hypotheses, first, found[0].places[found[0].here])
         history.revalue(gain)
         self._tried, self._past, self._doubted, self._quiet = {}, (), 0, 0
         self.change = Change("revised")

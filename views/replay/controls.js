@@ -13,6 +13,7 @@ function go(index) {
   $("count").textContent = `${index + 1} / ${F.length}`;
   drawMap(index);
   drawWorld(index);
+  drawPixels(frame);
   drawWords(frame);
   drawBelief(frame);
   drawPolicies(frame);
@@ -69,6 +70,7 @@ function begin() {
   measureMaps();
   readWindows();
   prepareWorld();
+  preparePixels();
   prepareMap();
   preparePolicies();
   layTimes();

@@ -38,7 +38,7 @@ def replay_html(recording: Recording) -> str:
     title = recording.data["title"]
     parts = {
         "title": html.escape(f"{title} – cogmap replay" if title else "cogmap replay"),
-        "policy": f"default-src 'none'; script-src '{_digest(script)}'; style-src '{_digest(style)}'",
+        "policy": f"default-src 'none'; script-src '{_digest(script)}'; style-src '{_digest(style)}'; img-src data:",
         "style": style,
         "data": _embedded(_content(recording)),
         "script": script,

@@ -125,6 +125,19 @@ function shut(frame) {
   return parts;
 }
 
+// What a body sees: there is no such panel in a world without one.
+function preparePixels() {
+  if (!F.some((frame) => frame.pixels)) $("pixels-panel").remove();
+  else if (R.world) $("map-panel").classList.add("wide");
+}
+
+function drawPixels(frame) {
+  const picture = $("pixels");
+  if (!picture) return;
+  if (frame.pixels) picture.src = frame.pixels;
+  else picture.removeAttribute("src");
+}
+
 function drawWorld(index) {
   if (!worldPicture) return;
   const frame = F[index], parts = [...shut(frame), ...trail(index)], name = (place) => said(R.places[place]);

@@ -160,7 +160,7 @@ class Pose(ModelFactor):
         """After inference, where the agent is certain: it is in `place`, and senses its ways."""
 
     def guessed(self, ways: Transition, places: Sequence[int] | None = None) -> Sequence[tuple[int, int, float]]:
-        """Place, action and doubt, above 0, of the ways never walked that may lead elsewhere than is thought.
+        """Place, action and doubt of the ways never walked that may lead elsewhere than is thought.
 
         Those of these `places`, or of all.
         """

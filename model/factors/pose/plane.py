@@ -95,7 +95,7 @@ class Plane(MetricPose):
             joining.meet(place)
 
     def guessed(self, ways: Transition, places: Sequence[int] | None = None) -> Sequence[tuple[int, int, float]]:
-        """Ways between places that were entered, walked in neither direction, on which a place may be hidden."""
+        """Ways between places that were entered, walked in neither direction; doubted if a place may be hidden on them."""
         first = self.context.visits.first.values
         at = self.context.visits.order.values if places is None else np.array(places, dtype=np.int64)
         at = at[(at < len(first)) & (first[np.minimum(at, len(first) - 1)] >= 0)] if len(at) else at
@@ -110,8 +110,7 @@ class Plane(MetricPose):
                 found.append((place, action, DOUBTED))
             elif self.lengths.values[place, action] < 0.0 and not self._walked_back(ways, there, place):
                 apart = float(np.linalg.norm(self.where.values[there] - self.where.values[place]))
-                doubt = hidden.odds(apart, rough=None) + DOUBTED
-                found += [(place, action, doubt)] * (doubt > 0.0)
+                found.append((place, action, max(hidden.odds(apart, rough=None) + DOUBTED, 0.0)))
         return found
 
     def _walked_back(self, ways: Transition, place: int, to: int) -> bool:
