@@ -145,19 +145,19 @@ def put_into(number: int) -> dict[str, Any]:
 def test_what_was_left_behind_for_good_is_forgotten(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr("cogmap.inference.hypotheses.tracker.DECIDED", 16)
     monkeypatch.setattr("cogmap.agent.forgetting.EVERY", 8)
-    monkeypatch.setattr("cogmap.agent.forgetting.SPARE", 8)
-    monkeypatch.setattr("cogmap.inference.hypotheses.replaying.History.__init__.__defaults__", (16,))
-    whole, agent = fleeting(100, 50), fleeting(3, 50)
-    assert agent.map.visited.sum() < 20 < 40 < whole.map.visited.sum()
+    monkeypatch.setattr("cogmap.agent.forgetting.SPARE", 4)
+    monkeypatch.setattr("cogmap.inference.hypotheses.replaying.History.__init__.__defaults__", (34,))
+    whole, agent = fleeting(100, 56), fleeting(3, 56)
+    assert agent.map.visited.sum() < 24 < 40 < whole.map.visited.sum()
     assert len(agent.map.positions) < 0.6 * len(whole.map.positions)
     assert agent.map.sights.find(("new", 3)) is None
-    assert whole.map.sights[agent.map.sights.index(("new", 49))] != ("new", 49)  # it has the number of another
+    assert whole.map.sights[agent.map.sights.index(("new", 55))] != ("new", 55)  # it has the number of another
     assert_map_is_sound(agent.map)
     assert all(event.label in agent.map.sights for event in agent.map.growth if event.kind == "sight")
     agent.save(tmp_path / "map.npz")
     again = Agent.load(tmp_path / "map.npz")
     assert list(again.map.sights) == list(agent.map.sights)
-    for step in range(50, 66):
+    for step in range(56, 66):
         assert agent.step(put_into(step)) == again.step(put_into(step))
     assert list(again.map.sights) == list(agent.map.sights)
     np.testing.assert_array_equal(again.map.A(), agent.map.A())
