@@ -59,7 +59,10 @@ class RegisteredWorld(gym.Env[Observation, Any]):
         mg.need_minigrid()
         if name not in gym.registry:
             raise WorldError(f"no environment {name!r} is registered; MiniGrid's begin with MiniGrid- or BabyAI-")
-        env: Any = gym.make(name, disable_env_checker=True)
+        try:
+            env: Any = gym.make(name, disable_env_checker=True)
+        except (gym.error.Error, TypeError, ImportError) as error:
+            raise WorldError(f"{name!r} cannot be made ({_line(error)})") from error
         if not isinstance(env.unwrapped, MiniGridEnv):
             raise WorldError(f"{name!r} is no world of MiniGrid; a body of this library lives in no other")
         self.name, self.env = name, PixelView(env) if view == "rgb" else env
@@ -77,8 +80,11 @@ class RegisteredWorld(gym.Env[Observation, Any]):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Wake up where the environment puts it. Raises WorldError: the mission is not understood."""
         super().reset(seed=seed)
-        with redirect_stdout(StringIO()):  # BabyAI tells of what it tried in vain
-            seen, _ = self.env.reset(seed=seed, options=options)
+        try:
+            with redirect_stdout(StringIO()):  # BabyAI tells of what it tried in vain
+                seen, _ = self.env.reset(seed=seed, options=options)
+        except gym.error.DependencyNotInstalled as error:
+            raise WorldError(f"{self.name}: {_line(error)}") from error
         wanted = errand_of(seen["mission"]) if self._errand else None
         if self._errand and wanted is None:
             raise WorldError(f"{self.name}: the mission {seen['mission']!r} is none that a body understands yet")
@@ -109,3 +115,7 @@ class RegisteredWorld(gym.Env[Observation, Any]):
 
     def _info(self) -> dict[str, Any]:
         return {"low_level_steps": self.body.steps, "reached": self.body.reward > 0.0}
+
+
+def _line(error: Exception) -> str:
+    return " ".join(str(error).split())

@@ -14,7 +14,7 @@ from .outlook import Outlook
 from .protocol import Percept
 from .room_map import around
 from .routes import distances, route
-from .vocabulary import vocabulary
+from .vocabulary import BOX, vocabulary
 from .whereabouts import DROP, NOTHING, PICKUP, TOGGLE
 
 DOORS = 32
@@ -188,7 +188,7 @@ class RoamingBody(MiniGridBody):
             return self._put_down()
         plan = self._to_errand() or self._through_unlocked()
         if not plan and (self._idle or self._errand is not None):
-            plan = self._to_doors()
+            plan = self._to_doors() or self._to_boxes()
         return self._to_hidden() if not plan and self._idle else plan
 
     def _through_unlocked(self) -> list[int] | None:
@@ -206,9 +206,13 @@ class RoamingBody(MiniGridBody):
         errand = self._errand
         if errand is None:
             return None
-        plan = self._towards(errand.wanted, upon=errand.upon)
+        wanted, key = errand.wanted, self._known.key
+        if errand.action == "toggle":  # doors that are locked take their keys: see `_to_doors`
+            locked = vocabulary().locked[:-1]
+            wanted = wanted & ((locked < 0) | (locked == key))
+        plan = self._towards(wanted, upon=errand.upon)
         if plan is None:
-            return self._clear(errand.wanted)
+            return self._clear(wanted)
         final = {"pickup": [PICKUP], "toggle": [TOGGLE], None: [] if errand.upon else [NOTHING]}[errand.action]
         full = self._carried is not None and errand.action == "pickup"
         return self._put_down() if full and TOGGLE not in plan else plan + final
@@ -232,6 +236,17 @@ class RoamingBody(MiniGridBody):
             if plan is not None:
                 return plan
         return None
+
+    def _to_boxes(self) -> list[int] | None:
+        """To a box, to open it, where the key of a locked door was not seen: it may lie in there."""
+        words, tiles = vocabulary(), self._known.tile
+        kinds = np.unique(tiles[tiles >= 0])
+        keys = {int(key) for key in words.key[kinds]} | {self._known.key}
+        if not {int(colour) for colour in words.locked[kinds]} - keys - {-1}:
+            return None
+        boxes = words.codes[:, 0] == BOX
+        plan = self._towards(boxes if self._errand is None else boxes & ~self._errand.wanted, upon=False)
+        return None if plan is None else [*plan, TOGGLE]
 
     def _to_hidden(self) -> list[int] | None:
         """To a thing behind which there is floor that cannot be reached, or that was not seen."""

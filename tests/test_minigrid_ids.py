@@ -40,6 +40,10 @@ def test_pixels_and_symbols_lead_to_the_same_steps(name: str) -> None:
         ("MiniGrid-BlockedUnlockPickup-v0", 60),
         ("MiniGrid-LockedRoom-v0", 150),
         ("MiniGrid-KeyCorridorS3R3-v0", 100),
+        ("MiniGrid-Unlock-v0", 40),
+        ("MiniGrid-ObstructedMaze-1Dlhb-v0", 60),  # the key lies in a box, the door is blocked by a ball
+        ("MiniGrid-LavaCrossingS9N2-v0", 40),
+        ("MiniGrid-Fetch-8x8-N3-v0", 40),
     ],
 )
 def test_keys_open_what_stands_in_the_way(name: str, most: int) -> None:
