@@ -12,6 +12,8 @@ def forget_fragments(h: Hypothesis, most: int) -> bool:
     The agent was put into each of them without a word, or so it is thought, and never came back to any place of it. The
     part in which the walk began and the one where the agent is now, or may be, are kept.
     """
+    if len({h.places[number].frame for number in h.places}) <= most:
+        return False
     here = {h.here, *(h.crowd or ())}
     old = [part for part in _parts(h) if here.isdisjoint(part) and all(_once(h, number) for number in part)]
     old.sort(key=lambda part: max(h.places[number].recent[-1] for number in part))

@@ -95,7 +95,7 @@ class Plane(MetricPose):
             joining.meet(place)
 
     def guessed(self, ways: Transition, places: Sequence[int] | None = None) -> Sequence[tuple[int, int, float]]:
-        """Ways between places that were entered, walked in neither direction; doubted if a place may be hidden on them."""
+        """Ways between places that were entered, never walked; doubted if a place may be hidden on them."""
         first = self.context.visits.first.values
         at = self.context.visits.order.values if places is None else np.array(places, dtype=np.int64)
         at = at[(at < len(first)) & (first[np.minimum(at, len(first) - 1)] >= 0)] if len(at) else at
