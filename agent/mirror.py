@@ -1,7 +1,5 @@
 """Has the map say what the most probable hypothesis says."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -11,11 +9,8 @@ from numpy.typing import NDArray
 from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, together, whereabouts
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 
-WALKS = 3
-"""Walks along a way from which on more of them add nothing to its counts."""
-
-SURE = 0.9
-"""From this probability on a way is taken to be open, or shut."""
+WALKS = 3  # Walks along a way from which on more of them add nothing to its counts
+SURE = 0.9  # From this probability on a way is taken to be open, or shut
 
 Doors = tuple[bool | float | None, ...]
 """For each action whether its way is believed open, or how much so; None where nothing is known of it."""

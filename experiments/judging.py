@@ -83,6 +83,17 @@ class Trail:
         been = Counter(self.rooms[step - first] for step in agent.steps_in(place) if step >= first)
         return been.most_common(1)[0][0] if been else None
 
+    def right(self, agent: Agent) -> bool:
+        """Whether it is where it most probably takes itself to be: the room of that place, or a new one of a new one.
+
+        A place belongs to the room in which it was visited most; one that was never visited before is right where the
+        room was not either.
+        """
+        place, room = agent.belief.place, self.rooms[-1]
+        if len(agent.steps_in(place)) < 2:
+            return room not in self.rooms[:-1]
+        return self.room(agent, place) == room
+
     def verdict(self, agent: Agent, chart: Chart) -> Verdict:
         """What its map is worth now."""
         rooms = {place: self.room(agent, place) for place in agent.map.visited_places.tolist()}

@@ -113,6 +113,19 @@ def test_a_place_belongs_to_the_room_where_it_was_visited_most() -> None:
     assert trail.room(agent, 0) == (0, 1)
 
 
+def test_a_new_place_for_a_known_room_is_not_right() -> None:
+    there = {0: (0, 1, 3), 1: (2,), 2: (4,)}
+    agent: Any = SimpleNamespace(steps=5, steps_in=there.get, belief=SimpleNamespace(place=2))
+    assert looked_at(agent, [(0, 0), (0, 0), (0, 1), (0, 0), (0, 2)]).right(agent)  # a room never entered before
+    trail = looked_at(agent, [(0, 0), (0, 0), (0, 1), (0, 0), (0, 1)])
+    assert not trail.right(agent)
+    assert trail.room(agent, 2) == (0, 1)
+    agent.belief.place, there[1] = 1, (2, 4)
+    assert trail.right(agent)
+    agent.belief.place = 0
+    assert not trail.right(agent)
+
+
 def test_it_is_wrong_where_it_is_certain_of_another_room() -> None:
     class Growing(Told):
         @property

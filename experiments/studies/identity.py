@@ -176,7 +176,7 @@ class Watcher:
         self.verdict = self.trail.verdict(agent, chart)
         whole = len(set(rooms)) == self.verdict.places == len(chart.places)
         self.exact.append(self.verdict.map_right and (whole or not self.whole))
-        self.held.append((agent.belief.certainty, self.trail.room(agent, agent.belief.place) == rooms[-1]))
+        self.held.append((agent.belief.certainty, self.trail.right(agent)))
         self.counted.append((float(len(agent.hypotheses)), float(self.verdict.places)))
 
     def row(self, task: Task, moved_at: int, ms: float) -> IdentityRow:

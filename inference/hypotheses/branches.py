@@ -1,7 +1,5 @@
 """What may have happened in one step, under one hypothesis."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from heapq import nlargest
 from math import exp, inf, log
@@ -15,20 +13,11 @@ from .records import NOWHERE, Place
 from .scheme import Sensed
 from .squares import across
 
-CROWD = 8
-"""Places from which on those that a silent move may have led to are one hypothesis, with a message over them."""
-
-MOST = 4096
-"""Places into which a silent move is thought of at most, the last ones first seen."""
-
-SQUARES = 0.1
-"""Rate of squares that close below which none is thought of."""
-
-FEW = 512
-"""Places up to which all are looked at when the agent is told that it was moved."""
-
-FAINT = 18.0
-"""Nats below which a place of a crowd is let go."""
+CROWD = 8  # Places from which on those that a silent move may have led to are one hypothesis, with a message over them
+MOST = 4096  # Places into which a silent move is thought of at most, the last ones first seen
+SQUARES = 0.1  # Rate of squares that close below which none is thought of
+FEW = 512  # Places up to which all are looked at when the agent is told that it was moved
+FAINT = 18.0  # Nats below which a place of a crowd is let go
 
 
 class Alternative(NamedTuple):

@@ -1,7 +1,5 @@
 """How likely a sensed is at a place, known or never seen, under one hypothesis."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from math import exp, log
 

@@ -1,7 +1,5 @@
 """A loop that does not close on the chart: one of its links leads where no chart says, or was a silent move."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from math import log
 from typing import NamedTuple
@@ -13,8 +11,7 @@ from .rates import ELSEWHERE, MOVED, UNDONE
 from .records import NOWHERE, Place, Position, Way
 from .weighing import doors, rate_gain
 
-LARGEST = 256
-"""Places that are laid out anew at most."""
+LARGEST = 256  # Places that are laid out anew at most
 
 DOORS = 8.0
 """Nats that doors gain at most, where places come to lie beside others."""
@@ -192,8 +189,7 @@ def _otherwise(h: Hypothesis, link: Link, part: Part, *, cut: bool, floor: float
     return other
 
 
-Counts = Mapping[int, tuple[float, float]]
-"""Of each rate, how much oftener it was found true, and false."""
+Counts = Mapping[int, tuple[float, float]]  # Of each rate, how much oftener it was found true, and false
 
 
 def _counts(h: Hypothesis, link: Link, part: Part, *, cut: bool) -> tuple[Counts | None, float]:

@@ -1,7 +1,5 @@
 """Places that were never there: steps replayed in the map as it is, and in the map without them."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Collection, Iterator
 from dataclasses import replace
@@ -15,17 +13,13 @@ from .records import NOWHERE, RECENT, Place, Way
 from .scheme import Sensed
 from .weighing import seating
 
-MARGIN = 3
-"""Steps before and after a visit that are replayed with it."""
+MARGIN = 3  # Steps before and after a visit that are replayed with it
 
 OFTEN = 0.02
 """Rate of silent moves from which on a place that looks like another may be that one, to which the agent was moved."""
 
-SELDOM = 8
-"""Visits from which on a place is not doubted any more; the times of fewer are all known."""
-
-LARGEST = 64
-"""Places of a fragment that is doubted as a whole."""
+SELDOM = 8  # Visits from which on a place is not doubted any more; the times of fewer are all known
+LARGEST = 64  # Places of a fragment that is doubted as a whole
 
 
 class History:

@@ -1,8 +1,8 @@
 """Ways that are only thought to lead where they do, kept from plan to plan until something changes at their place."""
 
-from __future__ import annotations
-
 from .view import MapView
+
+GREAT = 1.0  # nats of doubt for which a longer way is taken
 
 
 class Doubts:
@@ -12,20 +12,25 @@ class Doubts:
         map_: the map.
     """
 
-    __slots__ = ("_map", "_of", "_read")
+    __slots__ = ("_great", "_map", "_of", "_read")
 
     def __init__(self, map_: MapView) -> None:
         self._map, self._read = map_, -1  # of the log of changes
         self._of: dict[int, list[tuple[int, float]]] = {}
+        self._great = set[int]()  # places with a way that is greatly in doubt
 
-    def read(self) -> dict[int, list[tuple[int, float]]]:
-        """For each place with such ways the action and the doubt of each."""
+    def read(self) -> tuple[dict[int, list[tuple[int, float]]], bool]:
+        """For each place with such ways the action and the doubt of each; and whether any doubt is great."""
         map_ = self._map
         changed, self._read = map_.changed_places(self._read, map_.B_s, map_.visits, map_.transitions.walked)
         if changed is None:
             self._of.clear()
+            self._great.clear()
         for place in changed or ():
             self._of.pop(place, None)
+            self._great.discard(place)
         for place, action, doubt in map_.pose.guessed(map_.transitions, None if changed is None else sorted(changed)):
             self._of.setdefault(place, []).append((action, doubt))
-        return self._of
+            if doubt > GREAT:
+                self._great.add(place)
+        return self._of, bool(self._great)

@@ -1,7 +1,5 @@
 """The likely shortest ways to places never entered, and which of them are worth taking."""
 
-from __future__ import annotations
-
 import heapq
 from dataclasses import dataclass
 
@@ -17,8 +15,8 @@ BY = (STEPS, METRES)
 """What ways are measured in: one a step, or how far apart places lie, over the mean length of a way."""
 
 MOST = 64  # options that are weighed, the nearest, and equals of the last of them
-DOUBT = 4.0  # steps that it is worth to see where a way leads, for each nat of doubt
-MOST_SPARED = 12.0  # steps that it is worth at most
+DOUBT = 6.0  # steps that it is worth to see where a way leads, for each nat of doubt
+MOST_SPARED = 24.0  # steps that it is worth at most
 SAMPLE = 512  # other places never entered to which the way back is measured, at most, spread evenly over all
 
 LARGEST = 1_000
@@ -57,11 +55,12 @@ def frontier_of(around: Surroundings, *, weight: float, most: int, beyond: int =
 
 def _doubted(around: Surroundings, most: int) -> Frontier | None:
     """Where nothing new is left, ways that may lead elsewhere than is thought; None if there are none."""
-    doubts = around.cache.doubts.read()
+    doubts, great = around.cache.doubts.read()
+    spared = MOST_SPARED if great else DOUBT
     start = int(around.starts[0])
     search, level, best = _Search({start: 0}, [], STEPS, {}, around.prices), [start], np.inf
     met, steps = list[tuple[float, int, int]](), 0
-    while doubts and level and steps + 1 - MOST_SPARED < best:
+    while doubts and level and steps + 1 - spared < best:
         met += [
             (steps + 1 - min(DOUBT * doubt, MOST_SPARED), place, action)
             for place in level

@@ -13,6 +13,7 @@ from .metric import RECENT, UNKNOWN, MetricPose, fill, seen_bearings
 from .recognising import NEAR, recognised
 from .relaxing import AXES
 from .roaming import Roaming
+from .ways_between import ROUGH
 
 LEAST = 1e-6
 """P(ways as sensed) of a new place, at least, where it is taken out again."""
@@ -95,7 +96,7 @@ class Plane(MetricPose):
             joining.meet(place)
 
     def guessed(self, ways: Transition, places: Sequence[int] | None = None) -> Sequence[tuple[int, int, float]]:
-        """Ways between places that were entered, never walked; doubted if a place may be hidden on them."""
+        """Ways between places entered, walked in neither direction; doubted if a place may be hidden on them."""
         first = self.context.visits.first.values
         at = self.context.visits.order.values if places is None else np.array(places, dtype=np.int64)
         at = at[(at < len(first)) & (first[np.minimum(at, len(first) - 1)] >= 0)] if len(at) else at
@@ -106,12 +107,19 @@ class Plane(MetricPose):
         known = (targets >= 0) & (first[targets] >= 0) & (self.bearings.values[at] >= 0.0) & ~walked[at]
         for row, action in np.argwhere(known).tolist():
             place, there = int(at[row]), int(targets[row, action])
-            if np.count_nonzero(targets[row] == there) > 1:  # one of the two leads elsewhere
+            twice = np.count_nonzero(targets[row] == there) > 1  # one of the two leads elsewhere
+            if twice or self._beside(place, action):
                 found.append((place, action, DOUBTED))
             elif self.lengths.values[place, action] < 0.0 and not self._walked_back(ways, there, place):
                 apart = float(np.linalg.norm(self.where.values[there] - self.where.values[place]))
                 found.append((place, action, max(hidden.odds(apart, rough=None) + DOUBTED, 0.0)))
         return found
+
+    def _beside(self, place: int, action: int) -> bool:
+        """Whether another way leads in nearly the same direction, so that one may be taken for the other."""
+        theirs = self.bearings.values[place]
+        apart = np.abs((theirs - theirs[action] + 180.0) % 360.0 - 180.0)
+        return bool(np.count_nonzero((apart <= 2.0 * ROUGH) & (theirs >= 0.0)) > 1)
 
     def _walked_back(self, ways: Transition, place: int, to: int) -> bool:
         return any(ways.beyond(place, action) == to for action in np.flatnonzero(ways.walked.values[place]).tolist())
