@@ -236,6 +236,16 @@ def test_places_are_recognised_without_poses():
     assert tracker.certainty() > 0.95
 
 
+def test_what_stays_open_for_hundreds_of_steps_is_told_by_the_walk_back():
+    tracker, world = Tracker(LATTICE), Grid([[*range(20), *range(19, 269)]])
+    walk(tracker, world, "R" * 269)  # two rooms look the same: they may be one, and a move have failed
+    weights = [exp(h.weight) for h in tracker.hypotheses]
+    assert {h.size for h in tracker.hypotheses} == {269, 270}
+    assert 0.02 < sum(p for h, p in zip(tracker.hypotheses, weights, strict=True) if h.size == 270) < 0.5
+    walk(tracker, world, "L" * 269)
+    assert tracker.best.size == 270
+
+
 def test_a_silent_move_joins_what_was_mapped_before_and_after():
     tracker = Tracker(LATTICE)
     world = Grid([[0, 1, 2, 3], [4, 5, 6, 7], [8, 9, 10, 11]])

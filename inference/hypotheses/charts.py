@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from ...model import Periods, reduced, with_period
 from .hypothesis import Hypothesis, Key
@@ -59,7 +59,7 @@ class Charts:
         found = self.h.at.get(key)
         return NOWHERE if found is None or found in self.charted else found
 
-    def overlay(self, one: int, other: int, *, period: bool) -> list[Pair]:
+    def overlay(self, one: int, other: int, *, period: bool) -> Iterator[Pair]:
         """Lay the charts of two places over each other, so that the two coincide.
 
         Args:
@@ -67,23 +67,22 @@ class Charts:
             period: if they are in one chart, it closes on itself; otherwise it stays as it is.
 
         Returns:
-            Pairs of places that coincide by this.
+            Pairs of places that coincide by this, found as they are asked for. Charts are as said once all were.
         """
         a, b = self.h.places[one], self.h.places[other]
         if a.frame != b.frame:
-            return self._join(a, b) if a.frame < b.frame else self._join(b, a)
+            return reversed(self._join(a, b) if a.frame < b.frame else self._join(b, a))
         if not period or a.position == b.position:
-            return []
+            return iter(())
         vector = [x - y for x, y in zip(a.position, b.position, strict=True)]
-        return self._close(a.frame, with_period(self.h.periods.get(a.frame, ()), vector))
+        return self._close(a.frame, [vector])
 
     def _join(self, a: Place, b: Place) -> list[Pair]:
         """Lay the chart of `b` onto that of `a`."""
         periods, pairs = self.h.periods.get(a.frame, ()), list[Pair]()
         if more := self.h.periods.get(b.frame):
-            for row in more:
-                periods = with_period(periods, row)
-            pairs = self._close(a.frame, periods)
+            pairs = list(self._close(a.frame, more))
+            periods = self.periods[1] if self.periods else periods
         shift = tuple(x - y for x, y in zip(a.position, b.position, strict=True))
         moved = [number for number in self.h.places if self.h.places[number].frame == b.frame]
         self.joined = len(moved)
@@ -95,11 +94,18 @@ class Charts:
             pairs += self._met(a.frame, position, number, there)
         return pairs
 
-    def _close(self, frame: int, periods: Periods) -> list[Pair]:
-        """Let a chart close on itself."""
+    def _close(self, frame: int, vectors: Sequence[Sequence[int]]) -> Iterator[Pair]:
+        """Let a chart close on itself.
+
+        Places one vector apart come first: they are found at once, and the first few of them refuse most closings,
+        whereas to lay out the whole chart anew takes as long as it is large.
+        """
+        periods = self.h.periods.get(frame, ())
+        for vector in vectors:
+            periods = with_period(periods, vector)
         self.periods = (frame, periods)
+        yield from self._apart(frame, vectors)
         there: dict[Position, int] = {}
-        pairs: list[Pair] = []
         for number in self.h.places:
             place = self.h.places[number]
             if place.frame == frame:
@@ -107,8 +113,17 @@ class Charts:
                 if position != place.position:
                     self.charted[number] = (frame, position)
                 if (other := there.setdefault(position, number)) != number:
-                    pairs.append((other, number))
-        return pairs
+                    yield other, number
+
+    def _apart(self, frame: int, vectors: Sequence[Sequence[int]]) -> Iterator[Pair]:
+        """Pairs of places of a chart that are one of the vectors apart, those found last first."""
+        for number in reversed(self.h.places):
+            place = self.h.places[number]
+            for vector in vectors if place.frame == frame else ():
+                key = self.h.canonical(frame, [x + d for x, d in zip(place.position, vector, strict=True)])
+                found = self.h.at.get(key)
+                if found is not None:
+                    yield number, found
 
     def _met(self, frame: int, position: Position, number: int, there: dict[Position, int]) -> list[Pair]:
         other = there.setdefault(position, number)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import log
 
 from .extending import shared
 from .hypothesis import Hypothesis
 from .rates import ASTRAY, ELSEWHERE, MEETING, MOVED, NEW, SQUARE, UNDONE
 from .records import NOWHERE, Place
 from .uniting import ContradictionError, Union
-from .weighing import Links, scored
+from .weighing import Links, rate_gain, scored
 
 MORE = 12.0
 """Nats that what is scored last may gain at most: fewer places, fewer ways."""
@@ -47,17 +48,25 @@ def _may_close(h: Hypothesis, one: Place, other: Place) -> bool:
 
 def union(h: Hypothesis, one: int, other: int, *, period: bool, floor: float) -> Hypothesis | float:
     """The hypothesis in which two places are one; where its log weight is below `floor`, what it gains at most."""
-    united = Union(h, floor=floor - h.weight - MORE)
+    most = MORE + _off_the_chart(h, h.places[one], h.places[other])
+    united = Union(h, floor=floor - h.weight - most)
     try:
         united.unite(one, other, period=period)
     except ContradictionError:
-        return united.gain + MORE
+        return united.gain + most
     if _leads_nowhere(united):
         return OUT_OF_THE_QUESTION
     gain, links = scored(united)
     if h.weight + gain < floor:
         return gain
     return _built(united, h.weight + gain, links)
+
+
+def _off_the_chart(h: Hypothesis, one: Place, other: Place) -> float:
+    """What it gains at most, and that is less than nothing, that some way leads where the chart does not say."""
+    if h.scheme.displacements is None or one.frame != other.frame or one.position == other.position:
+        return 0.0
+    return rate_gain(h, ELSEWHERE, 1.0, 0.0) - log(h.size)
 
 
 def _leads_nowhere(united: Union) -> bool:

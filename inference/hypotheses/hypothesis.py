@@ -59,6 +59,7 @@ class Hypothesis:
             nothing is learned of places; None otherwise.
         weight: log posterior weight.
         digest: the same for maps that are the same, whatever their places are numbered; hardly ever for others.
+        laid: number of places in each chart that has positions, and the sums of their coordinates.
         size, links: number of places, and of ways between them (both directions are one).
         chances: the rates expected at this step.
         origin: the hypothesis before the last step, if this one only extends it.
@@ -69,8 +70,8 @@ class Hypothesis:
     """
 
     __slots__ = (
-        "apart", "at", "awake", "chances", "clan", "counts", "crowd", "digest", "here", "kinds", "links", "looks",
-        "origin", "periods", "places", "scheme", "shown", "size", "slips", "touched", "undo", "weight",
+        "apart", "at", "awake", "chances", "clan", "counts", "crowd", "digest", "here", "kinds", "laid", "links",
+        "looks", "origin", "periods", "places", "scheme", "shown", "size", "slips", "touched", "undo", "weight",
     )  # fmt: skip
 
     def __init__(self, scheme: WayScheme) -> None:
@@ -84,6 +85,7 @@ class Hypothesis:
         self.slips: dict[tuple[int, int], float] = {}
         self.undo: dict[tuple[int, int], tuple[float, float]] = {}
         self.looks = [(0.0, 0.0)] * scheme.count
+        self.laid: dict[int, Position] = {}
         self.here = NOWHERE
         self.weight = 0.0
         self.size = self.links = self.digest = 0
@@ -101,6 +103,7 @@ class Hypothesis:
         other.places, other.at, other.shown = self.places.fork(), self.at.fork(), self.shown.fork()
         other.kinds, other.counts, other.periods = self.kinds.copy(), self.counts.copy(), self.periods.copy()
         other.slips, other.undo, other.looks = self.slips.copy(), self.undo.copy(), self.looks.copy()
+        other.laid = self.laid.copy()
         other.here, other.weight, other.size, other.links = self.here, self.weight, self.size, self.links
         other.origin, other.touched, other.digest = None, {}, self.digest
         other.apart, other.crowd, other.clan = self.apart, self.crowd, self.clan
@@ -196,10 +199,14 @@ class Hypothesis:
             self.size += 1
             if place.position:
                 self.at[place.frame, place.position] = number
+                self.lay(place, 1)
             self._count(place, 1.0)
             self.digest += digest(place)
         else:
             self._recount(before.share, place.share)
+            if before.position is not place.position or before.frame != place.frame:
+                self.lay(before, -1)
+                self.lay(place, 1)
             if before.ways is not place.ways or before.sights is not place.sights:
                 self.digest += digest(place) - digest(before)
         if before is None or before.sights is not place.sights:
@@ -218,6 +225,7 @@ class Hypothesis:
     def forget(self, number: int) -> None:
         """Take a place away; what it shares stays counted."""
         place = self.places[number]
+        self.lay(place, -1)
         self.digest -= digest(place)
         for sensor in range(self.scheme.sensors):
             self._relabel(sensor, number, place.label(sensor), -1)
@@ -225,6 +233,13 @@ class Hypothesis:
             del self.at[place.frame, place.position]
         del self.places[number]
         self.size -= 1
+
+    def lay(self, place: Place | None, sign: int) -> None:
+        """Count a place among those of its chart, or no more."""
+        if place is not None and place.position:
+            more = (1, *place.position)
+            before = self.laid.get(place.frame, (0,) * len(more))
+            self.laid[place.frame] = tuple([x + sign * y for x, y in zip(before, more, strict=True)])
 
     def _count(self, place: Place, sign: float) -> None:
         yes, no = self.counts.yes, self.counts.no

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 K = TypeVar("K", bound=Hashable)
@@ -40,6 +41,22 @@ class Shared(dict[K, V]):
         if len(self.log) > 2 * LOGGED:
             self.cut += len(self.log) - LOGGED
             self.log = self.log[-LOGGED:]
+
+
+@dataclass(frozen=True)
+class Kept(Generic[K]):
+    """The keys of entries that are the same in two mappings.
+
+    Attributes:
+        shared: what both go back to.
+        changed: the keys of entries that are not.
+    """
+
+    shared: Mapping[K, object]
+    changed: set[K]
+
+    def __contains__(self, key: K) -> bool:
+        return key in self.shared and key not in self.changed
 
 
 class Layered(Generic[K, V]):
@@ -94,6 +111,13 @@ class Layered(Generic[K, V]):
             one._own = own
         many[0]._base.forget()
 
+    def kept(self, other: Layered[K, V]) -> Kept[K] | None:
+        """What is the same object in both; None if these do not share a layer."""
+        if self._base is not other._base:
+            return None
+        keys = {**self._own, **other._own}
+        return Kept(self._base, {key for key in keys if self.get(key) is not other.get(key)})
+
     def get(self, key: K) -> V | None:
         """The entry, or None."""
         return self._own[key] if key in self._own else self._base.get(key)
@@ -114,4 +138,13 @@ class Layered(Generic[K, V]):
                 yield key
         for key, value in self._own.items():
             if value is not None:
+                yield key
+
+    def __reversed__(self) -> Iterator[K]:
+        """What changed last first."""
+        for key, value in reversed(self._own.items()):
+            if value is not None:
+                yield key
+        for key in reversed(self._base):
+            if key not in self._own:
                 yield key

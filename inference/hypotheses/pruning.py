@@ -5,27 +5,32 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from .hypothesis import Hypothesis
+from .layered import Kept
 from .logs import log_add, log_sum
 from .records import NOWHERE, Place, Position
-
-SMALL = 200  # places; to look through all of a larger map costs more than it tells
 
 
 def alike(one: Hypothesis, other: Hypothesis) -> bool:
     """Whether two hypotheses say the same of where the agent is, and of the map as far as it is linked.
 
     A breadth-first search from the agent's place walks through both maps side by side; where ways lead, sights and,
-    with poses, positions seen from there are compared, until something differs.
+    with poses, positions seen from there are compared, until something differs. What nobody has written to since the
+    two were one is the same in both, by its number, so that the search begins where it was left.
     """
     a, b = one.places[one.here], other.places[other.here]
     if (one.size, one.digest) != (other.size, other.digest) or one.crowd is not None or other.crowd is not None:
         return False
     if one.periods.get(a.frame, ()) != other.periods.get(b.frame, ()):
         return False
-    pairs, back = {one.here: other.here}, {other.here: one.here}
     order = [(one.here, other.here)]
+    kept = one.places.kept(other.places) if _stands(one, a) == _stands(other, b) else None
+    if kept is not None:
+        order += [(number, number) for number in kept.changed if _linked(one, number, kept) and number != one.here]
+    pairs, back = dict(order), {its: mine for mine, its in order}
     for mine, its in order:
         here, there = one.places[mine], other.places[its]
+        if here is there and kept is not None:
+            continue
         if here.label() != there.label() or _seen(one, a, here) != _seen(other, b, there):
             return False
         for way, its_way in ((here.ways[k], there.ways[k]) for k in one.awake):
@@ -34,11 +39,23 @@ def alike(one: Hypothesis, other: Hypothesis) -> bool:
             if way.to == NOWHERE:
                 continue
             if way.to not in pairs and its_way.to not in back:
+                if kept is not None and way.to != its_way.to and (way.to in kept or its_way.to in kept):
+                    return False
                 pairs[way.to], back[its_way.to] = its_way.to, way.to
                 order.append((way.to, its_way.to))
             elif pairs.get(way.to) != its_way.to:
                 return False
     return True
+
+
+def _stands(h: Hypothesis, here: Place) -> object:
+    return h.here, here.frame, here.position
+
+
+def _linked(h: Hypothesis, number: int, kept: Kept[int]) -> bool:
+    """Whether a place that was written to is the same one in both, since a place that was not leads there."""
+    place = h.places.get(number)
+    return place is not None and any(source in kept for source, _ in place.into)
 
 
 def _seen(h: Hypothesis, start: Place, place: Place) -> object:
@@ -69,20 +86,20 @@ def merged(hypotheses: Sequence[Hypothesis], proposed: Sequence[Hypothesis] = ()
 
 def _kept(kept: dict[object, list[Hypothesis]], h: Hypothesis) -> Hypothesis:
     """The one that says the same, or this one, which is kept from now on."""
-    group = kept.setdefault((h.digest, _corner(h)), [])
+    group = kept.setdefault((h.digest, _lies(h)), [])
     same = next((other for other in group if alike(other, h)), h)
     if same is h:
         group.append(h)
     return same
 
 
-def _corner(h: Hypothesis) -> Position | None:
-    """Where the first corner of the chart lies as seen from the agent, which tells at once most that are not alike."""
+def _lies(h: Hypothesis) -> Position | None:
+    """How the chart lies about the agent (size, sums of coordinates), which tells most apart that are not alike."""
     here = h.places[h.here]
-    if not here.position or h.periods.get(here.frame) or h.size > SMALL:
+    if not here.position or h.periods.get(here.frame):
         return None
-    first = min(position for frame, position in h.at if frame == here.frame)
-    return tuple(x - y for x, y in zip(first, here.position, strict=True))
+    size, *sums = h.laid[here.frame]
+    return (size, *(total - size * x for total, x in zip(sums, here.position, strict=True)))
 
 
 def normalised(hypotheses: Sequence[Hypothesis], *, drop: float, most: int) -> tuple[list[Hypothesis], float]:

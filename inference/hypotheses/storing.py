@@ -291,7 +291,9 @@ def _finish(hypotheses: Sequence[Hypothesis], alive: int, time: int) -> None:
         return
     base = hypotheses[0].places.layers[0]
     shared = {number: digest(place) for number, place in base.items()}
-    total = sum(shared.values())
+    total, both = sum(shared.values()), Hypothesis(hypotheses[0].scheme)
+    for place in base.values():
+        both.lay(place, 1)
     for k, h in enumerate(hypotheses):
         own = h.places.layers[1]
         _check(h)
@@ -301,6 +303,10 @@ def _finish(hypotheses: Sequence[Hypothesis], alive: int, time: int) -> None:
         h.digest = total + sum(
             (0 if place is None else digest(place)) - shared.get(number, 0) for number, place in own.items()
         )
+        h.laid = both.laid.copy()
+        for number, place in own.items():
+            h.lay(base.get(number), -1)
+            h.lay(place, 1)
 
 
 def _check(h: Hypothesis) -> None:

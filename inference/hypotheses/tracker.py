@@ -45,7 +45,10 @@ IN_VAIN = -1e6
 """Nats that are gained where something is not worth trying again for long."""
 
 DECIDED = 256
-"""Steps after which what was open is decided, or hypotheses would differ in more and more that nothing ever tells."""
+"""Steps after which what was open and is improbable is let go: what hypotheses differ in grows as long as they do."""
+
+CLANS = 4
+"""Hypotheses of that time that may still be open."""
 
 DOUBTED = 4
 """Places that are looked at a step where the agent is moved often."""
@@ -276,7 +279,7 @@ class Tracker:
         return other.hypotheses
 
     def _decided(self, found: list[Hypothesis]) -> list[Hypothesis]:
-        """Now and then those alone that go back to one hypothesis of some time ago, the one that most go back to.
+        """Now and then those alone that go back to the few hypotheses of some time ago that nearly all go back to.
 
         And what was left behind long ago for good is forgotten.
         """
@@ -285,8 +288,9 @@ class Tracker:
         best, mass = found[0].weight, dict[int, float]()
         for h in found:
             mass[h.clan] = mass.get(h.clan, 0.0) + exp(h.weight - best)
-        clan = max(mass, key=mass.__getitem__)
-        found = [h for h in found if h.clan == clan]
+        least = self.options.doubt * sum(mass.values())
+        kept = {clan for clan in nlargest(CLANS, mass, key=mass.__getitem__) if mass[clan] > least}
+        found = [h for h in found if h.clan in kept]
         for number, h in enumerate(found):
             h.clan = number
             if forget_fragments(h, self.options.fragments):

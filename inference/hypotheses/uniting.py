@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from math import exp, inf, log
 from typing import Any, NamedTuple
 
@@ -53,6 +53,7 @@ class Union:
         self._attempts = 0
         self._first: dict[int, int] = {}
         self._pairs: list[tuple[int, int]] = []
+        self._coincide: Iterator[tuple[int, int]] = iter(())
         self._forks: list[Fork] = []
 
     def find(self, number: int) -> int:
@@ -95,21 +96,23 @@ class Union:
             ContradictionError: the readings become too improbable.
         """
         if self.h.scheme.displacements is not None:
-            self._pairs.extend(self.charts.overlay(one, other, period=period))
+            self._coincide = self.charts.overlay(one, other, period=period)
         self._pairs.append((one, other))
         self._follow()
 
     def _follow(self) -> None:
         """Unite what has to be, and then, of links that contradict each other, both ends or neither."""
-        while self._pairs or self._forks:
-            if self._pairs:
-                a, b = (self.find(number) for number in self._pairs.pop())
+        while True:
+            if pair := self._pairs.pop() if self._pairs else next(self._coincide, None):
+                a, b = (self.find(number) for number in pair)
                 if a != b:
                     self._merge(min(a, b), max(a, b))
                     if self.gain < self._floor:
                         raise ContradictionError
-            else:
+            elif self._forks:
                 self._settle(self._forks.pop())
+            else:
+                return
 
     def _settle(self, fork: Fork) -> None:
         """One way leads to two places: they are one, or the walks along one of the two links were something else."""
