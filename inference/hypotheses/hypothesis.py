@@ -240,6 +240,8 @@ class Hypothesis:
             more = (1, *place.position)
             before = self.laid.get(place.frame, (0,) * len(more))
             self.laid[place.frame] = tuple([x + sign * y for x, y in zip(before, more, strict=True)])
+            if not self.laid[place.frame][0]:
+                del self.laid[place.frame]  # nothing lies in it any more
 
     def _count(self, place: Place, sign: float) -> None:
         yes, no = self.counts.yes, self.counts.no
