@@ -262,10 +262,10 @@ def _turn(h: Hypothesis, before: Place, ways: Sequence[Way]) -> None:
 
 def _count_looks(h: Hypothesis, sensed: Sensed) -> None:
     """What a place never seen before says of how often each way is open."""
-    h.looks = [
-        looks if reading is None else (looks[0] + reading, looks[1] + 1.0 - reading)
-        for looks, reading in zip(h.looks, sensed.ways, strict=True)
-    ]
+    for way in h.awake:
+        if (reading := sensed.ways[way]) is not None:
+            opened, blocked = h.looks[way]
+            h.looks[way] = opened + reading, blocked + 1.0 - reading
 
 
 def seen(chances: Chances, sensor: int, counts: SightCounts, reading: Reading) -> SightCounts:

@@ -161,6 +161,13 @@ class Hypothesis:
         for key in ((given, taken), (given, given)):
             self.slips[key] = self.slips.get(key, 0.0) + weight
 
+    def wake(self, ways: tuple[int, ...]) -> None:
+        """Think of these ways; those that it did not think of were read blocked in every place so far."""
+        if ways is not self.awake:
+            for way in set(ways).difference(self.awake):
+                self.looks[way] = 0.0, float(self.size)
+            self.awake = ways
+
     def beyond(self, place: Place, way: int) -> Key | None:
         """The (frame, position) that a way leads to as far as poses say; None without poses."""
         displacements = self.scheme.displacements

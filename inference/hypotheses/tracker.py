@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from heapq import nlargest
 from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
-from .afresh import first_told, is_odd, lay_over, tries_until
+from .afresh import first_told, is_known, is_odd, lay_over, tries_until
 from .attempts import CONTRADICTED, NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
@@ -126,7 +127,7 @@ class Tracker:
         self._partly = self._partly or sensed.others is not None
         self.labels, self.awake = tuple(n + 1 for n in labels), awake_ways(self.scheme, self.awake, sensed)
         for h in self.hypotheses:
-            h.awake = self.awake
+            h.wake(self.awake)
         if self.hypotheses:
             self.hypotheses = self._afresh(self._advanced(sensed))
         else:
@@ -259,11 +260,13 @@ class Tracker:
     def _afresh(self, found: list[Hypothesis]) -> list[Hypothesis]:
         """Those that a tracker finds which is told the later steps alone, where they explain all steps better."""
         tries = self._tries
-        if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time, tries) == tries:
+        if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time) <= tries:
             return found
         history, first = self.history, first_told(self.history.start, self.time, tries)
-        self._tries = tries_until(self.time, tries)
-        other = Tracker(self.scheme, self.options)
+        self._tries = tries_until(self.time)
+        if not is_known(found[0], history.start):
+            return found
+        other = Tracker(self.scheme, replace(self.options, most=max(self.options.most // 2, 1)))
         other.time, other.awake, other._partly = first, self.awake, True
         for time in range(first, self.time + 1):
             other.step(history[time], [n - 1 for n in self.labels])

@@ -151,7 +151,7 @@ class MetricPose(NoPose):
     def hidden(self) -> Hidden:
         """Whether places lie hidden on ways between others."""
         walks, some = self.walks.values, evenly(self.context.visits.order.values)
-        lengths = np.linalg.norm(evenly(walks[walks[:, 3] > 0.0])[:, 4:7], axis=1)
+        lengths = np.linalg.norm(walks[evenly(np.flatnonzero(walks[:, 3] > 0.0)), 4:7], axis=1)
         where = self.where.values[some]
         apart = np.linalg.norm(where[:, None] - where, axis=2).mean()
         return Hidden(lengths, self.bearings.values[some], float(apart) / self.length)
@@ -177,7 +177,8 @@ class MetricPose(NoPose):
         """
         rows = self.walks.values
         key = np.array([place, action, -1 if there is None else there], dtype=np.float64)
-        known = np.flatnonzero((rows[:, :3] == key).all(axis=1))
+        known = np.flatnonzero(rows[:, 0] == key[0])
+        known = known[(rows[known, :3] == key).all(axis=1)]
         if len(known) and not roams:
             at, many = int(known[0]), float(rows[known[0], 3])
             if many and measured:
