@@ -17,6 +17,7 @@ from .chances import Chances
 from .evidence import log_predictive
 from .extending import begin, extend
 from .folding import pairs, union
+from .forgetting import forget_fragments
 from .hypothesis import Hypothesis, awake_ways, settle_alike
 from .logs import log_sum
 from .lookback import BACK, Past, passed_over
@@ -147,6 +148,18 @@ class Tracker:
                 total += exp(h.weight) * together(h, best)
         return min(total, 1.0)
 
+    def labels_used(self, sensor: int) -> set[int]:
+        """Numbers of the labels that hypotheses, or the last percepts, still speak of."""
+        hypotheses = [*self.hypotheses, *(step.parent for step in self._past)]
+        layers = {id(layer): layer for h in hypotheses for layer in h.places.layers}
+        used = {
+            label for layer in layers.values() for place in layer.values() if place for label in place.sights[sensor]
+        }
+        for _, sensed in self.history:
+            reading = sensed.sights[sensor] if sensed.sights else None
+            used.update([reading] if isinstance(reading, int) else reading or ())
+        return used
+
     # -- going back, and files ----------------------------------------------------------------------------
 
     def checkpoint(self) -> Checkpoint:
@@ -269,7 +282,10 @@ class Tracker:
         return other.hypotheses
 
     def _decided(self, found: list[Hypothesis]) -> list[Hypothesis]:
-        """Now and then those alone that go back to the few hypotheses of some time ago that nearly all go back to."""
+        """Now and then those alone that go back to the few hypotheses of some time ago that nearly all go back to.
+
+        And what was left behind long ago for good is forgotten.
+        """
         if self.time % DECIDED:
             return found
         best, mass = found[0].weight, dict[int, float]()
@@ -280,6 +296,8 @@ class Tracker:
         found = [h for h in found if h.clan in kept]
         for number, h in enumerate(found):
             h.clan = number
+            if forget_fragments(h, self.options.fragments):
+                h.origin = None  # it does more than extend it
         return found
 
     def _doubted_or_clear(
