@@ -9,6 +9,7 @@ import numpy as np
 
 from ..model import CogmapError, CognitiveMap, Savepoint, go_back, release, savepoint
 from ..planning import LocalCache, Plan
+from .forgetting import forget_unused
 from .recognition import Recognition
 from .state import State
 from .wiring import Wired
@@ -87,6 +88,7 @@ class Whole(Wired):
             result = work()
             self._torn = None
             release(map_)
+            forget_unused(map_, self._recognition.tracker, self._state)
             if self._keep is not None and len(self.trace) >= 2 * self._keep:
                 del self.trace[: -self._keep]
             return result

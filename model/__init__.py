@@ -14,6 +14,7 @@ from .factors import (
     OPEN,
     POSES,
     SENSORS,
+    SHOWN,
     UNKNOWN,
     Bearings,
     Context,
@@ -91,7 +92,7 @@ from .updates import ParameterUpdate, updates
 
 __all__ = [
     "BLOCKED", "ELSEWHERE", "EMPTY", "GROWTHS", "KINDS", "LEAST", "OPEN", "OUTCOMES", "PAPER_RATES", "POSES", "SENSORS",
-    "TABLE_RATES", "TEXT_RATES", "UNKNOWN", "UNSEEN", "AllEvidence", "Bearings", "Before", "Change", "Changes",
+    "SHOWN", "TABLE_RATES", "TEXT_RATES", "UNKNOWN", "UNSEEN", "AllEvidence", "Bearings", "Before", "Change", "Changes",
     "CogmapError", "CognitiveMap", "Column", "ConditionalTable", "Context", "Contexts", "Displacement", "Domain",
     "Entry", "Evidence", "Factor", "FactorGraph", "Features", "FloatArray", "Floats", "GenerativeModel", "GrownPlace",
     "Growth", "GrowthDifference", "GrowthEvent", "IntArray", "Ints", "LabelledTable", "Lattice", "LearnableTable",

@@ -217,6 +217,15 @@ class SparseDirichlet:
             self._set(row, slot, self._keys.item(row, slot), self._prior.item(row, slot), 0.0)
             self._set(row, slot, keys[slot] if kept else EMPTY, prior if kept else 0.0, 0.0)
 
+    def make_room(self, row: int, most: int, *, of: Sequence[int]) -> None:
+        """Have `row` have `most` outcomes of its own at most once it has these: those with the least evidence go."""
+        keys = self._keys[row].tolist()
+        if len(keys) < most:
+            return
+        used = [(self._evidence.item(row, slot), slot) for slot, key in enumerate(keys) if key not in (EMPTY, *of)]
+        for _, slot in sorted(used)[: max(len(used) + len(of) - most, 0)]:
+            self._set(row, slot, EMPTY, 0.0, 0.0)
+
     def evidence(self, row: int, key: int) -> float:
         """Evidence for `key` in `row`, prior left out."""
         keys = self._keys[row].tolist()

@@ -1,19 +1,37 @@
 """Labelled domains that grow as their labels are met."""
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Collection, Hashable, Iterable, Iterator
+from typing import final
 
 from .errors import CogmapError
 
 
-class Domain:
-    """An append-only list of distinct hashable labels, numbered in the order in which they were added."""
+@final
+class Forgotten:
+    """The kind of `FORGOTTEN`, of which there is one: what has the number of a label that was forgotten."""
 
-    __slots__ = ("_index", "_labels", "name")
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return "(forgotten)"
+
+    def __reduce__(self) -> str:
+        return "FORGOTTEN"  # copies are the one, too
+
+
+FORGOTTEN = Forgotten()
+
+
+class Domain:
+    """Distinct hashable labels, numbered as they are met; numbers of labels that were forgotten are given again."""
+
+    __slots__ = ("_free", "_index", "_labels", "name")
 
     def __init__(self, name: str, labels: Iterable[Hashable] = ()) -> None:
         self.name = name
         self._labels: list[Hashable] = []
         self._index: dict[Hashable, int] = {}
+        self._free: list[int] = []  # numbers that no label has, the least first
         self.extend(labels)
 
     def __len__(self) -> int:
@@ -69,16 +87,55 @@ class Domain:
         else:
             self._labels, self._index = labels, index
 
-    def cut(self, length: int) -> None:
-        """Have the first so many labels only, wherever it was left."""
-        self._labels = self._labels[:length]
-        self._index = {label: number for number, label in enumerate(self._labels)}
+    def take(self, labels: Iterable[Hashable]) -> None:
+        """Have these labels and no others; `FORGOTTEN` may stand for several of them.
+
+        Raises:
+            CogmapError: one is not hashable, or there twice.
+        """
+        labels = list(labels)
+        free = [number for number, label in enumerate(labels) if label is FORGOTTEN]
+        known = Domain(self.name, (label for label in labels if label is not FORGOTTEN))
+        if len(known) + len(free) < len(labels):
+            raise CogmapError(f"map: two labels of {self.name} are the same; save it again")
+        index = {label: number for number, label in enumerate(labels) if label is not FORGOTTEN}
+        self._labels, self._index, self._free = labels, index, free
+
+    def forget(self, used: Collection[int], *, least: int) -> list[Hashable]:
+        """Forget the labels whose numbers are not among `used`, if they are `least` or more; which they were."""
+        gone = [number for number in self._index.values() if number not in used]
+        if len(gone) < least:
+            return []
+        labels, before = self._labels.copy(), [self._labels[number] for number in gone]
+        for number in gone:
+            labels[number] = FORGOTTEN
+        index = {label: number for label, number in self._index.items() if labels[number] is not FORGOTTEN}
+        free = sorted((*self._free, *gone))
+        self._labels, self._index, self._free = labels, index, free  # in one go
+        return before
+
+    def savepoint(self) -> tuple[int, list[int]]:
+        """What `go_back` needs: numbers that were given, and those that no label has."""
+        return len(self), self._free.copy()
+
+    def go_back(self, point: tuple[int, list[int]]) -> None:
+        """Have the labels of then, wherever it was left."""
+        length, free = point
+        labels = self._labels[:length]
+        for number in free:
+            labels[number] = FORGOTTEN
+        index = {label: number for number, label in enumerate(labels) if label is not FORGOTTEN}
+        self._labels, self._index, self._free = labels, index, free.copy()
 
     def add(self, label: Hashable) -> int:
         """The number of `label`, which is appended where it is new."""
         found = self.find(label)
         if found is not None:
             return found
+        if self._free:
+            number = self._free.pop(0)
+            self._index[label], self._labels[number] = number, label
+            return number
         self._index[label] = len(self._labels)
         self._labels.append(label)
         return len(self._labels) - 1

@@ -1,6 +1,6 @@
 """The log of growth, and the short form of what in it is long ago."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import replace
 
 from .growth_event import GrowthEvent
@@ -31,6 +31,14 @@ class GrowthLog(list[GrowthEvent]):
         if self.keep is not None and len(self) > self._room:
             self.shorten(self[-1].step - self.keep)
             self._room = 2 * len(self) + ROOM
+
+    def forget(self, kind: str, sensor: str | None, labels: Sequence[Hashable]) -> None:
+        """Labels of a sensor, or positions, were forgotten; where every event is kept, those about them are as well."""
+        gone = set(labels)
+        if self.keep is not None and gone:
+            self[:] = [
+                event for event in self if event.kind != kind or event.sensor != sensor or event.label not in gone
+            ]
 
     def shorten(self, before: int) -> None:
         """Keep of the steps before that one only what is still there at it."""

@@ -64,7 +64,7 @@ class KnownInformation:
 
     __slots__ = ("_known", "_size", "most")
 
-    def __init__(self, most: int = 2**23) -> None:
+    def __init__(self, most: int = 2**20) -> None:
         self.most = most
         self._known: dict[tuple[bytes, int], Floats] = {}
         self._size = 0

@@ -7,6 +7,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from .domain import FORGOTTEN
 from .errors import CogmapError
 
 _SURROGATE = re.compile(r"[\ud800-\udfff]")
@@ -34,6 +35,8 @@ def encode(label: Hashable, *, where: str = "save") -> Any:
         return {"tuple": [encode(part, where=where) for part in cast(tuple[Hashable, ...], label)]}
     if label is None or isinstance(label, bool | int | float | str):
         return label
+    if label is FORGOTTEN:
+        return {"forgotten": True}
     kind = type(label).__name__
     raise CogmapError(
         f"{where}: cannot write label {label!r} of type {kind}; label with None, bool, int, float, str or tuple"
@@ -43,6 +46,8 @@ def encode(label: Hashable, *, where: str = "save") -> Any:
 def decode(value: Any) -> Hashable:
     """The label that `encode` wrote."""
     if isinstance(value, dict):
+        if value == {"forgotten": True}:
+            return FORGOTTEN
         parts = cast(dict[str, list[Any]], value)["tuple"]
         if dict not in map(type, parts):
             return tuple(parts)

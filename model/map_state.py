@@ -59,7 +59,8 @@ def _rows(map_: ReadableMap) -> NDArray[np.int64]:
         row[:3] = event.step, KINDS.index(event.kind), event.index
         row[3:5] = [-1 if number is None else number for number in (event.source, event.action)]
         if event.label is not None or event.sensor is not None:
-            row[5] = domains[event.sensor].index(event.label)
+            number = domains[event.sensor].find(event.label)
+            row[5] = -1 if number is None else number  # it was forgotten
         if event.sensor is not None:
             row[6] = sensors.index(event.sensor)
     return rows

@@ -10,6 +10,7 @@ import io
 import json
 import random
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ import networkx as nx
 import numpy as np
 from cogmap.agent import Agent, Settings
 from cogmap.experiments import Ledger
+from cogmap.inference import TrackerOptions
 from cogmap.inference.hypotheses.storing import _checksum
 from cogmap.model import (
     Bearings,
@@ -30,11 +32,9 @@ from cogmap.model import (
     save_graph,
 )
 from cogmap.views import Recording, replay_html
-from cogmap.worlds import GraphWorld, ListedWays, MazeEnv, NoisyWorld, WorldError, hall, load_world
-from cogmap.worlds.generate import random_maze
-from parts import agent_with
+from cogmap.worlds import GraphWorld, ListedWays, MazeEnv, NoisyWorld, WorldError, hall, labyrinth, load_world
 from recordings import recorded
-from walks import assert_map_is_sound, walk, walked
+from walks import assert_map_is_sound, walked
 
 from cogmap import UNSEEN
 
@@ -187,12 +187,24 @@ def spoil(value: Any, rng: random.Random) -> None:
 # -- what is tried with a damaged file -------------------------------------------------------------------------
 
 
-def try_agent(path: Path, *, steps: int = 12) -> None:
-    """Load it, and walk on."""
+FEW = TrackerOptions(most=3, folded=0)
+RANDOM = 10
+"""Steps at which what is sensed is drawn at random; then the agent stays, or each step would bring more doubt."""
+
+
+def try_agent(path: Path, *, steps: int = 12, light: bool = False, loaded: Callable[[], object] = bool) -> None:
+    """Load it, say so, and walk on; if it is to be light it looks one step ahead, with few hypotheses."""
     agent = Agent.load(path)
+    loaded()
+    if light:
+        few = replace(agent.settings, look_ahead=1, hypotheses=FEW)
+        agent = Agent.load(path, settings=few)
     rng = np.random.default_rng(0)
-    for _ in range(steps):
-        agent.step({name: _sensed(sensor, agent, rng) for name, sensor in agent.map.sensors.items()})
+    sensed: dict[str, Any] = {}
+    for step in range(steps):
+        if step < RANDOM:
+            sensed = {name: _sensed(sensor, agent, rng) for name, sensor in agent.map.sensors.items()}
+        agent.step(sensed if step < RANDOM else {**sensed, "taken": agent.map.motions.stay})
         assert np.isclose(agent.belief.message.mass.sum(), 1.0)
         assert np.isfinite(agent.trace[-1].evidence)
         assert agent.hypotheses or not agent._recognising
@@ -242,17 +254,14 @@ def try_world(path: Path) -> None:
 
 
 def agent_file(path: Path, places: int) -> None:
-    """A saved agent that knows about so many places."""
+    """A saved agent that knows about so many places; large mazes it was led through."""
     if places <= 16:
         walked(load_world("4x4_alias"), 30, displace_every=9).save(path)
         return
-    side = int((places * 1.1) ** 0.5)
-    world = MazeEnv(random_maze(side * side, sights=None, rng=np.random.default_rng(0)))
-    agent = agent_with(world.motions, look_ahead=2)
-    for _ in walk(world, agent, 10 * places):
-        if len(agent.map.places) >= places:
-            break
-    agent.save(path)
+    from known import known_agent  # beside the benchmarks, which alone ask for large ones
+
+    maze = labyrinth(places, rng=np.random.default_rng(0))
+    known_agent(maze, maze.rooms[0]).save(path)
 
 
 def doubting(path: Path) -> None:
@@ -386,18 +395,20 @@ KINDS: dict[str, tuple[str, Callable[[Path], Any], Callable[[Path], None], Damag
 DAMAGES = ("flip", "end", "change")
 
 
-def damaged(
-    kind: str, folder: Path, count: int, seed: int = 0, *, only: str | None = None
-) -> Iterator[tuple[str, Path, Callable[[Path], None]]]:
+def changes(kind: str) -> dict[str, Damage]:
+    """What damages a file of a kind, by name."""
+    return {"flip": flipped, "end": truncated, "change": KINDS[kind][3]}
+
+
+def damaged(kind: str, folder: Path, count: int, seed: int = 0) -> Iterator[tuple[str, Path, Callable[[Path], None]]]:
     """`count` files, each damaged anew, and what is tried with them."""
-    name, make, attempt, change = KINDS[kind]
+    name, make, attempt, _ = KINDS[kind]
     path, rng = folder / name, random.Random(seed)
     make(path)
     content = path.read_bytes()
-    changes: dict[str, Damage] = {"flip": flipped, "end": truncated, "change": change}
     for _ in range(count):
-        what = only or rng.choice([*DAMAGES, "change"])
-        path.write_bytes(changes[what](content, rng))
+        what = rng.choice([*DAMAGES, "change"])
+        path.write_bytes(changes(kind)[what](content, rng))
         yield what, path, attempt
 
 

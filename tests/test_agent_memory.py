@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.inference import TrackerOptions
-from cogmap.inference.hypotheses.extending import SHOWN
 from cogmap.inference.hypotheses.tracker import DECIDED
-from cogmap.model import CogmapError, GrowthEvent, growth_between
+from cogmap.model import SHOWN, CogmapError, Domain, GrowthEvent, growth_between
+from cogmap.model.domain import FORGOTTEN
 from cogmap.model.growth_log import GrowthLog
 from cogmap.model.information import KnownInformation, dirichlet_information
 from cogmap.worlds import load_world
-from walks import GRID, assert_same_map, walk
+from walks import GRID, assert_map_is_sound, assert_same_map, walk
 
 
 def twins(steps: int, *, keep: int, displace_every: int = 0) -> tuple[Agent, Agent]:
@@ -122,3 +123,61 @@ def test_a_new_sight_each_step_leaves_nothing_behind_in_the_module() -> None:
     kept = agent.map._context.information
     assert sum(sys.getsizeof(key) + row.nbytes for (key, _), row in kept._known.items()) <= kept.most
     assert not other.map._context.information._known
+
+
+def fleeting(most: int, steps: int) -> Agent:
+    """An agent that is put into a place that it has never seen at each step, and is told so."""
+    agent = Agent(
+        GRID,
+        settings=Settings(look_ahead=1, hypotheses=TrackerOptions(most=2, folded=0, fragments=most)),
+        seed=0,
+        keep=10,
+    )
+    for step in range(steps):
+        agent.step(put_into(step))
+    return agent
+
+
+def put_into(number: int) -> dict[str, Any]:
+    return {"sight": ("new", number), "open": [False] * 4 + [True], "moved": True}
+
+
+def test_what_was_left_behind_for_good_is_forgotten(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("cogmap.inference.hypotheses.tracker.DECIDED", 16)
+    monkeypatch.setattr("cogmap.agent.forgetting.EVERY", 8)
+    monkeypatch.setattr("cogmap.agent.forgetting.SPARE", 4)
+    monkeypatch.setattr("cogmap.inference.hypotheses.replaying.History.__init__.__defaults__", (34,))
+    whole, agent = fleeting(100, 56), fleeting(3, 56)
+    assert agent.map.visited.sum() < 24 < 40 < whole.map.visited.sum()
+    assert FORGOTTEN in set(agent.map.positions)
+    assert len(agent.map.positions) < len(whole.map.positions)
+    assert agent.map.sights.find(("new", 3)) is None
+    assert whole.map.sights[agent.map.sights.index(("new", 55))] != ("new", 55)  # it has the number of another
+    assert_map_is_sound(agent.map)
+    assert all(event.label in agent.map.sights for event in agent.map.growth if event.kind == "sight")
+    agent.save(tmp_path / "map.npz")
+    again = Agent.load(tmp_path / "map.npz")
+    assert list(again.map.sights) == list(agent.map.sights)
+    for step in range(56, 66):
+        assert agent.step(put_into(step)) == again.step(put_into(step))
+    assert list(again.map.sights) == list(agent.map.sights)
+    np.testing.assert_array_equal(again.map.A(), agent.map.A())
+
+
+def test_numbers_of_forgotten_labels_are_given_again() -> None:
+    domain = Domain("sights", "abcde")
+    assert domain.forget({0, 3}, least=4) == []
+    point = domain.savepoint()
+    assert domain.forget({0, 3}, least=3) == ["b", "c", "e"]
+    assert list(domain) == ["a", FORGOTTEN, FORGOTTEN, "d", FORGOTTEN]
+    assert (domain.find("b"), len(domain)) == (None, 5)
+    forgotten = domain.savepoint()
+    assert [domain.add(label) for label in "xbyz"] == [1, 2, 4, 5]
+    domain.go_back(forgotten)
+    assert list(domain) == ["a", FORGOTTEN, FORGOTTEN, "d", FORGOTTEN]
+    again = Domain("sights")
+    again.take(domain)
+    assert [again.add(label) for label in "xa"] == [1, 0]
+    assert point[0] == 5
+    with pytest.raises(CogmapError, match="two labels of sights are the same"):
+        again.take(["a", FORGOTTEN, "a"])

@@ -329,6 +329,8 @@ def test_tables_of_the_documents_are_written_row_by_row() -> None:
     page = "# A\n\n| maze | done |\n| --- | ---: |\n| `3x3` | 1/2 |\n| `4x4` | 2/2 |\n\n| `3x3` | stays |\n"
     changed = written(page, "| maze | done |", {"3x3": ["20/20"]})
     assert changed == page.replace("1/2", "20/20")
+    whole = written(page, "| maze | done |", {"donut | 1": ["2.0"]}, whole=True)
+    assert whole == page.replace("| `3x3` | 1/2 |\n| `4x4` | 2/2 |", "| donut | 1 | 2.0 |")
     for heading, maze in (("| no | such |", "3x3"), ("| maze | done |", "donut")):
         with pytest.raises(ValueError, match="no"):
             written(page, heading, {maze: ["x"]})

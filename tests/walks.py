@@ -9,6 +9,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from cogmap.agent import Agent
 from cogmap.model import CognitiveMap, map_state
+from cogmap.model.domain import FORGOTTEN
 from cogmap.planning import LocalCache
 from cogmap.worlds import MazeEnv
 from parts import agent_with
@@ -69,7 +70,8 @@ def assert_map_is_sound(map_: CognitiveMap) -> None:
     for columns in (map_.A(), map_.positions_given_places(), map_.B()):
         assert (columns >= 0.0).all()
         np.testing.assert_allclose(columns.sum(axis=0), 1.0, atol=1e-9)
-    assert len(set(map_.positions)) == len(map_.positions)
+    known = [position for position in map_.positions if position is not FORGOTTEN]
+    assert len(set(known)) == len(known)
     assert set(map_.visited_places.tolist()) == set(np.flatnonzero(map_.visited).tolist())
 
 

@@ -10,6 +10,7 @@ it is weighed against the map that there is, so that what was learned early is g
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from operator import add
 from operator import sub as minus
@@ -19,8 +20,11 @@ from .hypothesis import Hypothesis, settle_alike
 from .rates import ASTRAY, ELSEWHERE, FAILS, MOVED, RELINKED, UNDONE
 from .records import Place
 
-FIRST, LATER = 32, 256
-"""Steps after which it is tried first; and steps between two tries at most."""
+TRIED, LATER = (32, 48, 72, 108, 162, 243, 364, 546), 256
+"""Steps after which it is tried, each time half as late again so that steps are told few times, and how often then."""
+
+LARGEST = 128
+"""Places of a map that is begun anew at most: it takes as long as the steps that are told."""
 
 SHARES = (0.5, 0.25, 0.125)
 """Shares of the steps that are left out, in turn."""
@@ -39,20 +43,15 @@ def is_odd(h: Hypothesis, tries: int) -> bool:
     return odd + (tries % 2) * (counts.of(FAILS)[0] + counts.of(ASTRAY)[0]) > ODD
 
 
-def tries_until(time: int, tries: int) -> int:
-    """How many times it is begun anew until a step: each time half as late again, so that steps are told few times."""
-    due = _due(tries)
-    while due <= time:
-        tries += 1
-        due = _due(tries)
-    return tries
+def is_known(h: Hypothesis, start: int) -> bool:
+    """Whether the map is small enough to be begun anew, and all of it was seen in the steps that are remembered."""
+    return h.size <= LARGEST and all(h.places[number].recent[-1] >= start for number in h.places)
 
 
-def _due(tries: int) -> int:
-    due = FIRST
-    for _ in range(tries):
-        due += min(due // 2, LATER)
-    return due
+def tries_until(time: int) -> int:
+    """How many times it is begun anew until a step."""
+    later = max(time - TRIED[-1], 0) // LATER
+    return bisect_right(TRIED, time) + later
 
 
 def first_told(start: int, time: int, tries: int) -> int:

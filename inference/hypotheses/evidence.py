@@ -173,12 +173,20 @@ def same_door(h: Hypothesis, place: Place, way: int, other: int, number: int) ->
     chances, key = h.chances, (mine.net, its.net)
     found = chances.pairs.get(key)
     if found is None:
-        p, half = chances.open, 0.5 * chances.unit
-        one, two = strength(mine.net * half), strength(its.net * half)
-        same = chances.undone * (p * one * two + (1.0 - p) / (one * two))
-        apart = (1.0 - chances.undone) * (p * one + (1.0 - p) / one) * (p * two + (1.0 - p) / two)
+        same, apart = both_sides(chances, *key, open_=chances.open)
         found = chances.pairs[key] = same / (same + apart)
     return found
+
+
+def both_sides(chances: Chances, mine: float, its: float, *, open_: float) -> tuple[float, float]:
+    """P(readings of two sides), if they are one door and if not, but for what is the same for open and blocked ones.
+
+    ρ [π l m + (1 - π) / (l m)]   and   (1 - ρ) [π l + (1 - π) / l] [π m + (1 - π) / m],   l = exp(net · unit / 2)
+    """
+    p, half = open_, 0.5 * chances.unit
+    one, other = strength(mine * half), strength(its * half)
+    same = chances.undone * (p * one * other + (1.0 - p) / (one * other))
+    return same, (1.0 - chances.undone) * (p * one + (1.0 - p) / one) * (p * other + (1.0 - p) / other)
 
 
 def strength(evidence: float) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from math import log
 
+from ...model import SHOWN
 from .branches import Alternative, slips_into_staying
 from .chances import Chances
 from .evidence import count_alike, label_shares, odds_beyond, probability, same_door, was_rebuilt, way_odds
@@ -17,9 +18,6 @@ from .squares import across, around, tally
 
 SHUT = Way(-1.0, 0.0, 1.0)
 """What is known of a way that nobody thinks of: it was read blocked."""
-
-SHOWN = 64
-"""Labels of which a place has counts at most; of what was read there once in so many, the first is forgotten."""
 
 
 def begin(h: Hypothesis, sensed: Sensed, time: int) -> None:

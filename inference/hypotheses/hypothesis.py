@@ -226,8 +226,12 @@ class Hypothesis:
 
     def remove(self, number: int) -> None:
         """Take a place away."""
+        self._count(self.places[number], -1.0)
+        self.forget(number)
+
+    def forget(self, number: int) -> None:
+        """Take a place away; what it shares stays counted."""
         place = self.places[number]
-        self._count(place, -1.0)
         self.lay(place, -1)
         self.digest -= digest(place)
         for sensor in range(self.scheme.sensors):
@@ -243,6 +247,8 @@ class Hypothesis:
             more = (1, *place.position)
             before = self.laid.get(place.frame, (0,) * len(more))
             self.laid[place.frame] = tuple([x + sign * y for x, y in zip(before, more, strict=True)])
+            if not self.laid[place.frame][0]:
+                del self.laid[place.frame]  # nothing lies in it any more
 
     def _count(self, place: Place, sign: float) -> None:
         yes, no = self.counts.yes, self.counts.no
@@ -259,7 +265,10 @@ class Hypothesis:
     def _relabel(self, sensor: int, number: int, was: int, now: int) -> None:
         if was >= 0:
             rest = tuple(k for k in self.shown[sensor, was] if k != number)
-            self.shown[sensor, was] = rest
+            if rest:
+                self.shown[sensor, was] = rest
+            else:
+                del self.shown[sensor, was]
             self.kinds[sensor] -= not rest
         if now >= 0:
             others = self.shown.get((sensor, now)) or ()

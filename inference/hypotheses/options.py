@@ -24,6 +24,8 @@ class TrackerOptions:
         doubt: while all others are less probable than this, beside the most probable one, nothing is in doubt, and
             that one is kept alone; once something is, the last steps are gone through again for what was passed over.
         folded: hypotheses in which look-alikes are tried to be united, besides those that found a new place.
+        fragments: parts of a map that nothing joins to the rest, and that were walked through once and never come back
+            to: of more than so many the oldest are forgotten, now and then.
         calm: steps that leave no doubt take a short way; the result is the same.
 
     Raises:
@@ -35,14 +37,16 @@ class TrackerOptions:
     folded: int = 2
     doubt: float = 1e-3
     calm: bool = True
+    fragments: int = 64
 
     def __post_init__(self) -> None:
-        whole = all(type(number) is int for number in (self.most, self.folded)) and isinstance(self.calm, bool)  # pyright: ignore[reportUnnecessaryIsInstance]
+        numbers = self.most, self.folded, self.fragments
+        whole = all(type(number) is int for number in numbers) and isinstance(self.calm, bool)  # pyright: ignore[reportUnnecessaryIsInstance]
         shares = all(is_number(share, TINY, 1.0 - TINY) for share in (self.least, self.doubt))
-        if not (whole and shares and self.most >= 1 and self.folded >= 0):
+        if not (whole and shares and min(self.most, self.fragments) >= 1 and self.folded >= 0):
             raise CogmapError(
-                f"tracker: {self} cannot work; give whole numbers most >= 1 and folded >= 0, numbers 0 < least < 1 and "
-                "0 < doubt < 1, and a truth value calm"
+                f"tracker: {self} cannot work; give whole numbers most, fragments >= 1 and folded >= 0, numbers "
+                "0 < least, doubt < 1, and a truth value calm"
             )
 
 

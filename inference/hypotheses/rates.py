@@ -171,7 +171,7 @@ def log_beta_evidence(a: float, b: float, yes: float, no: float) -> float:
     return lgamma(a + yes) + lgamma(b + no) - lgamma(a + b + yes + no) - before
 
 
-@lru_cache(maxsize=1 << 16)
+@lru_cache(maxsize=1 << 12)
 def crp_evidence(kinds: int, places: int) -> float:
     """log Σ_α P(α) α^kinds Γ(α) / Γ(α + places): the part of a seating's probability that depends on α.
 

@@ -43,13 +43,14 @@ def surveyed(like: Hypothesis, history: History, *, floor: float) -> Hypothesis 
         floor: log P(walk) below which it is nothing.
 
     Returns:
-        The hypothesis, its weight log P(walk, hypothesis); None where a label was not read, or below the floor.
+        The hypothesis, its weight log P(walk, hypothesis); None where a label was not read, or no move led
+        to it, or below the floor.
     """
     at, h, start = _laid_out(like, history), like.emptied(), None
     for time, sensed in history:
         label = sensed.sights[0]
-        if not isinstance(label, int):
-            return None
+        if not isinstance(label, int) or label not in at:
+            return None  # no move led to it
         if start is None:
             start, h.weight = at[label], log_predictive(h, sensed, None, None, NOWHERE)
             begin(h, sensed, time)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from heapq import nlargest
 from math import exp, inf, log
 from typing import Any
 
 from ...model import CogmapError
-from .afresh import first_told, is_odd, lay_over, tries_until
+from .afresh import first_told, is_known, is_odd, lay_over, tries_until
 from .attempts import CONTRADICTED, NEVER, Attempt, Tried, attempt
 from .branches import Alternative, apart, branches
 from .calm import calm_branches
@@ -16,6 +17,7 @@ from .chances import Chances
 from .evidence import log_predictive
 from .extending import begin, extend
 from .folding import pairs, union
+from .forgetting import forget_fragments
 from .hypothesis import Hypothesis, awake_ways, settle_alike
 from .logs import log_sum
 from .lookback import BACK, Past, passed_over
@@ -146,6 +148,18 @@ class Tracker:
                 total += exp(h.weight) * together(h, best)
         return min(total, 1.0)
 
+    def labels_used(self, sensor: int) -> set[int]:
+        """Numbers of the labels that hypotheses, or the last percepts, still speak of."""
+        hypotheses = [*self.hypotheses, *(step.parent for step in self._past)]
+        layers = {id(layer): layer for h in hypotheses for layer in h.places.layers}
+        used = {
+            label for layer in layers.values() for place in layer.values() if place for label in place.sights[sensor]
+        }
+        for _, sensed in self.history:
+            reading = sensed.sights[sensor] if sensed.sights else None
+            used.update([reading] if isinstance(reading, int) else reading or ())
+        return used
+
     # -- going back, and files ----------------------------------------------------------------------------
 
     def checkpoint(self) -> Checkpoint:
@@ -246,11 +260,13 @@ class Tracker:
     def _afresh(self, found: list[Hypothesis]) -> list[Hypothesis]:
         """Those that a tracker finds which is told the later steps alone, where they explain all steps better."""
         tries = self._tries
-        if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time, tries) == tries:
+        if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time) <= tries:
             return found
         history, first = self.history, first_told(self.history.start, self.time, tries)
-        self._tries = tries_until(self.time, tries)
-        other = Tracker(self.scheme, self.options)
+        self._tries = tries_until(self.time)
+        if not is_known(found[0], history.start):
+            return found
+        other = Tracker(self.scheme, replace(self.options, most=max(self.options.most // 2, 1)))
         other.time, other.awake, other._partly = first, self.awake, True
         for time in range(first, self.time + 1):
             other.step(history[time], [n - 1 for n in self.labels])
@@ -266,7 +282,10 @@ class Tracker:
         return other.hypotheses
 
     def _decided(self, found: list[Hypothesis]) -> list[Hypothesis]:
-        """Now and then those alone that go back to the few hypotheses of some time ago that nearly all go back to."""
+        """Now and then those alone that go back to the few hypotheses of some time ago that nearly all go back to.
+
+        And what was left behind long ago for good is forgotten.
+        """
         if self.time % DECIDED:
             return found
         best, mass = found[0].weight, dict[int, float]()
@@ -277,6 +296,8 @@ class Tracker:
         found = [h for h in found if h.clan in kept]
         for number, h in enumerate(found):
             h.clan = number
+            if forget_fragments(h, self.options.fragments):
+                h.origin = None  # it does more than extend it
         return found
 
     def _doubted_or_clear(

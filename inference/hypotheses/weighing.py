@@ -7,8 +7,7 @@ from math import lgamma, log
 from operator import itemgetter
 from typing import NamedTuple
 
-from .chances import Chances
-from .evidence import before_reading, strength
+from .evidence import before_reading, both_sides
 from .hypothesis import Hypothesis
 from .rates import ELSEWHERE, MEETING, NEW, RATE_PRIORS, SQUARE, UNDONE, crp_evidence
 from .records import NOWHERE, Place
@@ -220,17 +219,5 @@ def doors(
                         done.add((other, back))
                         first = min(first, (other, there, back), key=itemgetter(0))
             if way.net or its:
-                total += door_evidence(h.chances, way.net, its, open_=before_reading(h, *first, view, find))
+                total += log(sum(both_sides(h.chances, way.net, its, open_=before_reading(h, *first, view, find))))
     return total
-
-
-def door_evidence(chances: Chances, mine: float, its: float, *, open_: float) -> float:
-    """log P(readings of both sides of a door), but for what is the same for an open and a blocked one.
-
-    ρ [π l m + (1 - π) / (l m)] + (1 - ρ) [π l + (1 - π) / l] [π m + (1 - π) / m],  l = exp(net · unit / 2)
-    """
-    p, half = open_, 0.5 * chances.unit
-    one, other = strength(mine * half), strength(its * half)
-    same = p * one * other + (1.0 - p) / (one * other)
-    apart = (p * one + (1.0 - p) / one) * (p * other + (1.0 - p) / other)
-    return log(chances.undone * same + (1.0 - chances.undone) * apart)

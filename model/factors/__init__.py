@@ -7,7 +7,7 @@ from .displacement import Displacement
 from .features import Features
 from .pose import POSES, Ahead, Lattice, NoPose, Plane, Pose
 from .sensor import Sensor
-from .sight import Sight
+from .sight import SHOWN, Sight
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 from .ways import Ways
 
@@ -21,7 +21,7 @@ SENSORS: dict[str, type[Sensor]] = {
 """Kinds of sensors by name."""
 
 __all__ = [
-    "BLOCKED", "ELSEWHERE", "OPEN", "POSES", "SENSORS", "UNKNOWN", "Ahead", "Bearings", "Context", "Contexts",
+    "BLOCKED", "ELSEWHERE", "OPEN", "POSES", "SENSORS", "SHOWN", "UNKNOWN", "Ahead", "Bearings", "Context", "Contexts",
     "Displacement", "Features", "Lattice", "ModelFactor", "NoPose", "Plane", "Pose", "Sensor", "Sight", "Successors",
     "Support", "Table", "Transition", "Ways", "parts_of",
 ]  # fmt: skip

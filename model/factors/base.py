@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,6 +13,7 @@ from ..changes import Changes, Store
 from ..dirichlet import SparseDirichlet
 from ..errors import CogmapError
 from ..growth_event import GrowthEvent
+from ..growth_log import GrowthLog
 from ..information import KnownInformation
 from ..motions import Motions
 from ..percept import Percept
@@ -28,7 +29,7 @@ class Context:
     priors: Priors  # concentrations before evidence
     rates: Rates  # counts that a piece of evidence adds
     changes: Changes  # the log that every factor writes to
-    growth: list[GrowthEvent]  # what was added to the model
+    growth: GrowthLog  # what was added to the model
     visits: Visits  # which places were entered
     slip: float  # probability of a slip for poses that are given none
     # what n more observations of a row of counts would teach, looked up where it was met before
@@ -38,6 +39,10 @@ class Context:
         """Log something that was added."""
         self.growth.append(event)
         self.changes.append(event)
+
+    def forgotten(self, kind: str, sensor: str | None, labels: Sequence[Hashable]) -> None:
+        """Labels of a sensor, or positions, are not known any more."""
+        self.growth.forget(kind, sensor, labels)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """P(x | s) of a vector of features: which prototype a place looks like, known again by a likelihood."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 import numpy as np
@@ -53,6 +53,9 @@ class Features(Sight):
     @property
     def options(self) -> dict[str, Any]:
         return {"name": self.name, "size": self.size, "noise": self.noise, "prior": self._prior}
+
+    def forget(self, used: Collection[int], *, least: int) -> None:
+        """Nothing: labels are prototypes here, which are kept."""
 
     @property
     def prototypes(self) -> dict[int, Floats]:

@@ -1,6 +1,6 @@
 """P(o | s): which label a place shows, as Dirichlet counts."""
 
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Collection, Hashable, Iterable, Mapping
 from typing import Any, cast
 
 import numpy as np
@@ -19,6 +19,9 @@ from .sight_index import SightIndex
 from .transition import Transition
 
 Reading = int | Mapping[int, float]  # the number of a label, or likelihoods of labels by number, the largest 1
+
+SHOWN = 64
+"""Labels of which a place has counts at most; of what was read there once in so many, the first is forgotten."""
 
 
 class Sight(Sensor):
@@ -71,11 +74,11 @@ class Sight(Sensor):
     def grow(self, places: int) -> None:
         self.table.resize(places)
 
-    def savepoint(self) -> int:
-        return len(self.labels)
+    def savepoint(self) -> Any:
+        return self.labels.savepoint()
 
-    def go_back(self, point: int) -> None:
-        self.labels.cut(point)
+    def go_back(self, point: Any) -> None:
+        self.labels.go_back(point)
         self._index = SightIndex(self.table, self.context.changes, self.context.visits)
 
     def state(self) -> dict[str, Any]:
@@ -83,9 +86,7 @@ class Sight(Sensor):
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over labels and counts. Raises CogmapError: two labels are the same."""
-        self.labels.extend(decode(label) for label in state["labels"])
-        if len(self.labels) < len(state["labels"]):
-            raise CogmapError(f"map: two labels of {self.name} are the same; save it again")
+        self.labels.take(decode(label) for label in state["labels"])
         self.table.outcomes = len(self.labels) + 1
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=len(self.labels))
@@ -144,6 +145,7 @@ class Sight(Sensor):
     def learn(self, place: int, reading: Reading, weight: float) -> None:
         """Its count gains `weight` times the rate; of likelihoods each label its posterior share of that."""
         gain = weight * self.context.rates.likelihood
+        self.table.make_room(place, SHOWN, of=(reading,) if isinstance(reading, int) else tuple(reading))
         if not isinstance(reading, Mapping):
             self.table.add(place, reading, gain)
             return
@@ -152,6 +154,16 @@ class Sight(Sensor):
         total = sum(share.values())
         for label, part in share.items():
             self.table.add(place, label, gain * part / total)
+
+    def forget(self, used: Collection[int], *, least: int) -> None:
+        """Forget labels that no place shows, nor `used` has; met again they are new, and their numbers those of others.
+
+        Args:
+            used: numbers of labels that others still speak of.
+            least: so many have to go, or none does.
+        """
+        numbers = {*used, *range(len(self._declared)), *np.unique(self.table.keys(slice(len(self.table)))).tolist()}
+        self.context.forgotten("sight", self.name, self.labels.forget(numbers, least=least))
 
     def information(self, places: Ints, steps: int) -> Floats:
         """`[n, N + 1]` nats that 0..N more looks teach of the column of each place."""

@@ -12,7 +12,8 @@ from ..arrays import Floats, Ints
 from ..errors import CogmapError
 from .variables import Variable
 
-FloatArray, IntArray = Floats, Ints
+FloatArray = Floats
+IntArray = Ints
 
 LARGEST_DENSE = 2**28  # entries of a sparse table that is still written out
 MOST_AXES = 32  # axes of an array that numpy still broadcasts, of the 64 that it has

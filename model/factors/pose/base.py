@@ -1,6 +1,6 @@
 """What every kind of pose offers."""
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Collection, Hashable, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -84,6 +84,9 @@ class Pose(ModelFactor):
     def imagined(self, places: Ints) -> Floats | None:
         """`[n, D]` where places never entered are imagined to be; None for a pose whose positions stay as they are."""
         return None
+
+    def forget(self, used: Collection[int], *, least: int) -> None:
+        """Forget positions of no place that `used` has not, if they are so many."""
 
     def place_at(self, position: Hashable) -> int | None:
         """The place at a position; None where there is none."""

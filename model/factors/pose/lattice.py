@@ -1,6 +1,6 @@
 """Positions in Z^n: P(p | s) as Dirichlet counts A_p, one-hot in practice, and B_p, p + displacement(a)."""
 
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any, cast
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...changes import Store
 from ...column import Column
 from ...dirichlet import SparseDirichlet
-from ...domain import Domain
+from ...domain import FORGOTTEN, Domain
 from ...errors import CogmapError
 from ...growth_event import GrowthEvent
 from ...labels import decode, encode
@@ -77,17 +77,17 @@ class Lattice(Pose):
         self.table.resize(places)
         self.position_of.resize(places)
 
-    def savepoint(self) -> tuple[int, Any]:
-        """How many positions there are, and the periods that they repeat with."""
-        return len(self.positions), getattr(self, "periods", ())
+    def savepoint(self) -> tuple[Any, Any]:
+        """Which positions there are, and the periods that they repeat with."""
+        return self.positions.savepoint(), getattr(self, "periods", ())
 
-    def go_back(self, point: tuple[int, Any]) -> None:
-        """Have the first so many positions only, and what lies beside each."""
-        count, self.periods = point
-        self.positions.cut(count)
-        self.places.resize(count)
+    def go_back(self, point: tuple[Any, Any]) -> None:
+        """Have the positions of then, and what lies beside each."""
+        positions, self.periods = point
+        self.positions.go_back(positions)
+        self.places.resize(len(self.positions))
         self.beyond.resize(0)
-        self.beyond.resize(count)
+        self.beyond.resize(len(self.positions))
         for index, position in enumerate(self.positions):
             self._connect(index, cast(Position, position))
 
@@ -100,9 +100,12 @@ class Lattice(Pose):
         """Take over positions and counts. Raises CogmapError: a place is not where its position has it."""
         self.periods = tuple(tuple(map(int, row)) for row in state.get("periods", ()))
         positions = [decode(position) for position in state["positions"]]
-        self._check(positions, places)
-        for position in positions:
-            self._add(cast(Position, position))
+        self._check([position for position in positions if position is not FORGOTTEN], places)
+        self.positions.take(positions)
+        self.places.resize(len(positions))
+        self.beyond.resize(len(positions))
+        for index, position in enumerate(positions):
+            self._connect(index, cast(Position, position))
         self.grow(places)
         self.table.restore(parts_of(self.table, arrays), outcomes=len(self.positions))
         self.position_of.restore(parts_of(self.position_of, arrays), least=-1, bound=len(self.positions))
@@ -219,13 +222,23 @@ class Lattice(Pose):
 
     def _add(self, position: Position) -> int:
         index = self.positions.add(position)
-        self.places.resize(index + 1)
-        self.beyond.resize(index + 1)
+        if index < len(self.beyond):  # it was that of another position
+            self.beyond.values[self.beyond.values == index] = -1
+            self.beyond.values[index] = -1
+        self.places.resize(len(self.positions))
+        self.beyond.resize(len(self.positions))
         self._connect(index, position)
         return index
 
+    def forget(self, used: Collection[int], *, least: int) -> None:
+        """Forget positions of no place that `used` has not, if so many; their numbers become those of others."""
+        numbers = {*used, *self.position_of.values.tolist()}
+        self.context.forgotten("position", None, self.positions.forget(numbers, least=least))
+
     def _connect(self, index: int, position: Position) -> None:
         """Name what lies beside a position, unless another one stands for it."""
+        if position is FORGOTTEN:
+            return
         if self.periods and len(position) == len(self.origin) and reduced(position, self.periods) != position:
             return
         for action in range(len(self.motions)):
