@@ -15,7 +15,7 @@ LEFT, RIGHT, FORWARD, PICKUP, DROP, TOGGLE, NOTHING = range(7)
 
 UP = 3  # The way a body faces where it wakes up, whatever that is in the world
 SURE = 0.7  # Belief in one pose from which on it counts as known
-_KEEP, _FEW = 1e-4, 16  # of each way to face: where it stands shows sooner, and matters less
+_KEEP, _FEW = 1e-4, 48  # of each way to face: where it stands shows sooner, and matters less
 _TELLING = 3  # tiles that differ, from which on a view tells two beliefs apart
 
 
