@@ -329,6 +329,8 @@ def test_trackers_that_cannot_work_are_refused():
         Tracker(LATTICE).step(Sensed((0,), (1.0,) * 4), [])
     with pytest.raises(CogmapError, match="most >= 1"):
         TrackerOptions(most=0)
+    with pytest.raises(CogmapError, match="fragments >= 1"):
+        TrackerOptions(fragments=0)
     with pytest.raises(CogmapError, match="name each of the 4 ways once"):
         WayScheme(4, (1, 0))
     with pytest.raises(CogmapError, match="one vector for each"):

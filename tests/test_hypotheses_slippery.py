@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.inference.hypotheses import Sensed, Tracker, TrackerOptions
+from cogmap.inference.hypotheses.replaying import History
+from cogmap.inference.hypotheses.surveying import surveyed
 from cogmap.model import Sight
 from cogmap.worlds import GRID, NoisyWorld, frozen_lake, load_world
 
@@ -38,6 +40,20 @@ def test_a_slippery_lake_is_surveyed_as_a_whole() -> None:
     down = {tuple((at[cell + 3] - at[cell]).tolist()) for cell in range(6)}
     assert (right, down) == ({(0, 1)}, {(1, 0)})  # which way is up shows in what slips hardly do: turn round
     assert best.chances.astray == pytest.approx(2 / 3, abs=0.15)
+
+
+def test_labels_that_no_move_leads_to_are_surveyed_too() -> None:
+    tracker, _, _ = skated(2, 3, 12, seed=3)
+    best, history = tracker.best, History()
+    for time, (label, way) in enumerate([(0, None), (1, 0), (2, None), (None, 1), (3, 1), (4, 1)]):
+        history.add(Sensed((label,), (None,) * 4, way, told=label == 4), time)
+    assert surveyed(best, history, floor=-1e9) is None  # one label was not read
+    only = History()
+    for time, label in enumerate((0, 0, 1, 0)):  # another label though it stayed
+        only.add(Sensed((label,), (None,) * 4, None), time)
+    found = surveyed(best, only, floor=-1e9)
+    assert found is not None
+    assert found.size == 2
 
 
 def test_the_map_says_where_actions_lead_that_go_astray() -> None:

@@ -45,8 +45,8 @@ class TrackerOptions:
         shares = all(is_number(share, TINY, 1.0 - TINY) for share in (self.least, self.doubt))
         if not (whole and shares and min(self.most, self.fragments) >= 1 and self.folded >= 0):
             raise CogmapError(
-                f"tracker: {self} cannot work; give whole numbers most, fragments >= 1 and folded >= 0, numbers "
-                "0 < least, doubt < 1, and a truth value calm"
+                f"tracker: {self} cannot work; give whole numbers most >= 1, fragments >= 1 and "
+                "folded >= 0, numbers 0 < least < 1 and 0 < doubt < 1, and a truth value calm"
             )
 
 

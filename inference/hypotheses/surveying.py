@@ -87,17 +87,18 @@ class _Layout(NamedTuple):
 def _laid_out(like: Hypothesis, history: History) -> Mapping[int, Position]:
     """Where each label lies, one after another, that first which most moves join to those that are laid down."""
     moves, beside = dict[tuple[int, int], Counter[int]](), Counter[tuple[int, int]]()
-    before: int | None = None
+    before, left = None, set[int]()
     for _, sensed in history:
         label = sensed.sights[0]
         if not isinstance(label, int):
             label = None
-        elif before is not None and sensed.action is not None and not sensed.told:
+        else:
+            left.add(label)
+        if label is not None and before is not None and sensed.action is not None and not sensed.told:
             if label != before:
                 moves.setdefault((before, label), Counter())[sensed.action] += 1
             beside.update(((before, label), (label, before)))
         before = label
-    left = {label for label, _ in beside} or {before or 0}
     first = max(sorted(left), key=lambda label: sum(n for (one, _), n in beside.items() if one == label))
     beam, left = [_Layout({first: like.scheme.origin}, {}, 0.0)], left - {first}
     while left:

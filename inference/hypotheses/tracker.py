@@ -400,7 +400,7 @@ class Tracker:
         """Now and then, while something is in doubt, the map in which each label is one place."""
         if self.time not in SURVEYS or self._clear or self.history.start or self.history.end > self.time + 1:
             return
-        if self.scheme.displacements is None or sensed.others is not None or not self.scheme.sensors:
+        if self.scheme.displacements is None or sensed.others is not None or not (self.scheme.sensors and self.awake):
             return
         total = self.history.norm(0)
         found = surveyed(best, self.history, floor=total + best.weight - drop)
