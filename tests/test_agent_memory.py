@@ -99,19 +99,23 @@ def test_a_place_has_counts_of_so_many_labels() -> None:
         assert agent.steps - 1 in h.places[h.here].recent
 
 
-def test_what_was_open_for_long_is_decided() -> None:
-    """Those that go back to one hypothesis are left, as are more of them, and each is a beginning from then on."""
+def test_what_was_open_for_long_and_is_improbable_is_let_go() -> None:
+    """Those that go back to the four most probable hypotheses are left, and each is a beginning from then on."""
     agent = Agent(GRID, settings=Settings(look_ahead=1), seed=0)
     agent.step({"sight": 0, "open": [True] * 5})
     tracker = agent._recognition.tracker
-    found = [tracker.best.fork() for _ in range(3)]
-    for h, clan, weight in zip(found, (7, 8, 8), (-0.7, -0.9, -2.0), strict=True):
+    found = [tracker.best.fork() for _ in range(7)]
+    weights = (-0.7, -0.9, -2.0, -4.0, -5.0, -6.0, -12.0)
+    for h, clan, weight in zip(found, (7, 8, 8, 1, 2, 3, 2), weights, strict=True):
         h.clan, h.weight = clan, weight
     tracker.time = DECIDED - 1
     assert tracker._decided(found) == found
     tracker.time = DECIDED
     left = tracker._decided(found)
-    assert (left, [h.clan for h in left]) == (found[1:], [0, 1])
+    assert (left, [h.clan for h in left]) == ([*found[:5], found[6]], [0, 1, 2, 3, 4, 5])
+    for h, weight in zip(left, (-0.1, -9.0, -9.0, -9.0, -9.0, -9.0), strict=True):
+        h.weight = weight
+    assert tracker._decided(left) == left[:1]
     tracker.time, tracker.best.clan = 1, 5
     assert Agent.from_state(*agent.state())._recognition.tracker.best.fork().clan == 5
 
