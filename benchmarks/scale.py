@@ -3,12 +3,12 @@
     python benchmarks/scale.py
     python benchmarks/scale.py --rooms 16 1000 --parts localised lost --json scale.json
 
-`localised`: everything is known, nothing is wanted. `goal`: the same, and the room furthest away is preferred.
-`lost`: moved without a word, again and again, until it knows its place. `save`: seconds to save and load, size of the
-file, memory of a loaded agent as it is and in use, when plans have looked at every place. `explore`: steps until every
-room was visited and every transition is believed, beside nearest-frontier search from the same start. All but `explore`
-begin with a map that was taught (see `known.py`). A part ends after `--seconds`, and where a step would take more than
-`--gigabytes`: the table says so.
+`localised`: everything is known, nothing is wanted. `goal`: the same, and the room furthest away is preferred. `lost`:
+moved without a word, again and again, until it knows its place. `save`: seconds to save and load, size of the file,
+memory of a loaded agent as it is and in use, when plans have looked at every place. `explore`: steps until every room
+was visited and every transition is believed, beside nearest-frontier search from the same start. All but `explore`
+begin with the maze as a map that is given, and have to find out where in it they are. A part ends after `--seconds`,
+and where a step would take more than `--gigabytes`: the table says so.
 """
 
 from __future__ import annotations
@@ -30,8 +30,7 @@ from cogmap.agent import Agent, Settings
 from cogmap.baselines import FrontierAgent
 from cogmap.experiments import Truth
 from cogmap.planning import CHOICES, LocalCache, Planner
-from cogmap.worlds import Maze, MazeEnv, Position, labyrinth
-from known import known_agent
+from cogmap.worlds import GRID, Maze, MazeEnv, Position, labyrinth
 from machine import arguments, write_json
 
 Row = dict[str, Any]
@@ -82,10 +81,15 @@ def for_a_while(most: int, seconds: float) -> Iterator[int]:
         yield i
 
 
+def with_map(maze: Maze, asked: argparse.Namespace) -> Agent:
+    """An agent that was given the maze as its map; it has sensed nothing yet."""
+    return Agent(GRID, map=maze.to_networkx(), settings=asked.settings, planner=asked.planner, seed=0)
+
+
 def localised(rooms: int, asked: argparse.Namespace) -> Row:
     """Steps of an agent that knows everything and wants nothing."""
     maze, start = maze_of(rooms, asked, 0)
-    walk = Timed(known_agent(maze, start, settings=asked.settings, planner=asked.planner), maze, start)
+    walk = Timed(with_map(maze, asked), maze, start)
     for _ in for_a_while(WARM + asked.steps, asked.seconds):
         walk.step()
     return walk.times(WARM)
@@ -94,8 +98,8 @@ def localised(rooms: int, asked: argparse.Namespace) -> Row:
 def goal(rooms: int, asked: argparse.Namespace) -> Row:
     """Steps towards the place that is furthest from the start."""
     maze, start = maze_of(rooms, asked, 0)
-    agent = known_agent(maze, start, settings=asked.settings, planner=asked.planner)
-    far = max(agent.map.places, key=lambda place: sum(map(abs, agent.map.position(place) or ())))
+    agent = with_map(maze, asked)
+    far = agent.map.places[max(range(rooms), key=lambda number: _apart(maze.rooms[number], start))]
     agent.prefer(places={far: 2.0})
     walk = Timed(agent, maze, start)
     reached = False
@@ -110,7 +114,7 @@ def goal(rooms: int, asked: argparse.Namespace) -> Row:
 def lost(rooms: int, asked: argparse.Namespace) -> Row:
     """Steps from a silent move until the right place is believed at the certainty of the settings."""
     maze, start = maze_of(rooms, asked, 0)
-    agent = known_agent(maze, start, settings=asked.settings, planner=asked.planner)
+    agent = with_map(maze, asked)
     walk, rng = Timed(agent, maze, start), np.random.default_rng(1)
     for _ in range(3):
         walk.step()
@@ -122,7 +126,7 @@ def lost(rooms: int, asked: argparse.Namespace) -> Row:
         for step in range(asked.patience):
             room = walk.world.position
             walk.step()
-            if agent.certain and agent.map.position(agent.belief.place) == (room[0] - start[0], room[1] - start[1]):
+            if agent.certain and maze.rooms[agent.belief.place] == room:
                 took.append(step)
                 break
         else:
@@ -132,8 +136,7 @@ def lost(rooms: int, asked: argparse.Namespace) -> Row:
 
 def save(rooms: int, asked: argparse.Namespace) -> Row:
     """Seconds to save and to load, bytes a room in the file and in memory."""
-    maze, start = maze_of(rooms, asked, 0)
-    agent = known_agent(maze, start, settings=asked.settings, planner=asked.planner)
+    agent = with_map(maze_of(rooms, asked, 0)[0], asked)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "map.npz"
         seconds = [_seconds(partial(agent.save, path)), _seconds(partial(Agent.load, path))]
@@ -156,6 +159,10 @@ def plan_everywhere(agent: Agent) -> None:
         cache.ways(part), cache.sights(part)
     agent.map.sensors["sight"].candidates(0)
     agent._cache = cache
+
+
+def _apart(one: Sequence[int], other: Sequence[int]) -> int:
+    return sum(abs(x - y) for x, y in zip(one, other, strict=True))
 
 
 def _seconds(call: Callable[[], object]) -> float:

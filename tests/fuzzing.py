@@ -32,7 +32,7 @@ from cogmap.model import (
     save_graph,
 )
 from cogmap.views import Recording, replay_html
-from cogmap.worlds import GraphWorld, ListedWays, MazeEnv, NoisyWorld, WorldError, hall, labyrinth, load_world
+from cogmap.worlds import GRID, GraphWorld, ListedWays, MazeEnv, NoisyWorld, WorldError, hall, labyrinth, load_world
 from recordings import recorded
 from walks import assert_map_is_sound, walked
 
@@ -254,14 +254,16 @@ def try_world(path: Path) -> None:
 
 
 def agent_file(path: Path, places: int) -> None:
-    """A saved agent that knows about so many places; large mazes it was led through."""
+    """A saved agent that knows about so many places; of large mazes it was given the map."""
     if places <= 16:
         walked(load_world("4x4_alias"), 30, displace_every=9).save(path)
         return
-    from known import known_agent  # beside the benchmarks, which alone ask for large ones
-
     maze = labyrinth(places, rng=np.random.default_rng(0))
-    known_agent(maze, maze.rooms[0]).save(path)
+    agent, world = Agent(GRID, map=maze.to_networkx(), seed=0), MazeEnv(maze)
+    observation, _ = world.reset(options={"start": maze.rooms[0]})
+    for _ in range(5):
+        observation, *_ = world.step(agent.step(observation))
+    agent.save(path)
 
 
 def doubting(path: Path) -> None:

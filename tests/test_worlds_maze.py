@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cogmap.worlds import GRID, MAZES, Maze, WorldError, format_maze, parse_maze, random_maze, read_maze
+from cogmap.agent import Agent
+from cogmap.worlds import GRID, MAZES, Maze, MazeEnv, WorldError, format_maze, parse_maze, random_maze, read_maze
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -78,7 +79,21 @@ def test_networkx_graph_has_rooms_sights_and_doors() -> None:
     graph = MAZES["donut"].to_networkx()
     assert set(graph.nodes) == set(MAZES["donut"].rooms)
     assert set(map(frozenset, graph.edges)) == set(map(frozenset, MAZES["donut"].doors))
-    assert graph.nodes[2, 4]["sight"] == 12
+    assert graph.nodes[2, 4] == {"sight": 12, "position": (2, 4)}
+
+
+def test_the_graph_of_a_maze_is_a_map_for_an_agent() -> None:
+    maze = MAZES["tolman"]
+    agent, world = Agent(GRID, map=maze.to_networkx(), seed=0), MazeEnv(maze)
+    assert len(agent.map.places) == len(maze.rooms)
+    observation, _ = world.reset(options={"start": maze.rooms[3]})
+    at = world.position
+    for _ in range(12):
+        at = world.position
+        action = agent.step(observation)
+        observation, *_ = world.step(action)
+    assert agent.certain
+    assert maze.rooms[agent.belief.place] == at  # places are numbered as the nodes of the graph
 
 
 @pytest.mark.parametrize(

@@ -127,11 +127,14 @@ class Maze:
         return tuple(other for other in self.exits(room).values() if other not in (None, room))
 
     def to_networkx(self) -> nx.Graph[Position]:
-        """An undirected graph: a node a room with attribute `sight`, an edge a door."""
+        """An undirected graph: a node a room with attributes `sight` and `position`, an edge a door.
+
+        `Agent(motions, map=...)` takes it for a map.
+        """
         import networkx as nx
 
         graph: nx.Graph[Position] = nx.Graph(name=self.name)
-        graph.add_nodes_from((room, {"sight": self.sights[room]}) for room in self.rooms)
+        graph.add_nodes_from((room, {"sight": self.sights[room], "position": room}) for room in self.rooms)
         graph.add_edges_from(self.doors)
         return graph
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cache, lru_cache
+from dataclasses import dataclass, field
+from functools import lru_cache
 from math import exp, lgamma, log
 
 
@@ -18,39 +18,44 @@ class RatePrior:
         name: what it is called.
         meaning: what it is the rate of.
         parts: (w_k, yes_k, no_k); a second part lets a world be calm or not, as the counts will have it.
+        priors: log w_k - log B(yes_k, no_k).
     """
 
     name: str
     meaning: str
     parts: tuple[tuple[float, float, float], ...]
+    priors: tuple[float, ...] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        logs = tuple(log(w) + lgamma(a + b) - lgamma(a) - lgamma(b) for w, a, b in self.parts)
+        object.__setattr__(self, "priors", logs)
 
     def mean(self, yes: float, no: float) -> float:
         """E[rate | counts]."""
-        _, a, b = self.parts[0]
         if len(self.parts) == 1:
+            _, a, b = self.parts[0]
             return (a + yes) / (a + b + yes + no)
-        first = lgamma(a + yes) + lgamma(b + no) - lgamma(a + b + yes + no) + _part(self.parts[0])
-        total, weighed = 1.0, (a + yes) / (a + b + yes + no)
-        for part in self.parts[1:]:
-            _, a, b = part
-            log_weight = lgamma(a + yes) + lgamma(b + no) - lgamma(a + b + yes + no) + _part(part) - first
-            weight = exp(min(log_weight, 500.0))
+        logs = self._logs(yes, no)
+        total = weighed = 0.0
+        for (_, a, b), value in zip(self.parts, logs, strict=True):
+            weight = exp(min(value - logs[0], 500.0))
             total += weight
             weighed += weight * (a + yes) / (a + b + yes + no)
         return weighed / total
 
     def log_evidence(self, yes: float, no: float) -> float:
         """log ∫ rate^yes (1 - rate)^no P(rate) d rate."""
-        logs = [log(w) + log_beta_evidence(a, b, yes, no) for w, a, b in self.parts]
+        logs = self._logs(yes, no)
+        if len(logs) == 1:
+            return logs[0]
         most = max(logs)
-        return most + log(sum(exp(value - most) for value in logs))
+        return most + log(sum([exp(value - most) for value in logs]))
 
-
-@cache
-def _part(part: tuple[float, float, float]) -> float:
-    """log w - log B(yes, no) of one part of a mixture."""
-    weight, a, b = part
-    return log(weight) + lgamma(a + b) - lgamma(a) - lgamma(b)
+    def _logs(self, yes: float, no: float) -> list[float]:
+        return [
+            lgamma(a + yes) + lgamma(b + no) - lgamma(a + b + yes + no) + prior
+            for (_, a, b), prior in zip(self.parts, self.priors, strict=True)
+        ]
 
 
 def _beta(name: str, yes: float, no: float, meaning: str) -> RatePrior:
@@ -163,12 +168,6 @@ class RateCounts:
         most = max(logs)
         weights = [exp(value - most) for value in logs]
         self.yes[BLAMED] = sum(share * w for share, w in zip(SPLITS, weights, strict=True)) / sum(weights)
-
-
-def log_beta_evidence(a: float, b: float, yes: float, no: float) -> float:
-    """log B(a + yes, b + no) - log B(a, b)."""
-    before = lgamma(a) + lgamma(b) - lgamma(a + b)
-    return lgamma(a + yes) + lgamma(b + no) - lgamma(a + b + yes + no) - before
 
 
 @lru_cache(maxsize=1 << 12)
