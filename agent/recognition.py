@@ -35,6 +35,7 @@ from .structure import OpenQuestion
 Arrays = dict[str, NDArray[Any]]
 
 HARDLY = 1.5  # Ways that were misread so far, as is expected, up to which the last look at one is believed
+FAR = 512  # Places within which another one that was never seen is within reach
 DECIDED = 0.8  # Probability from which on another hypothesis than the one that is followed changes the map
 SURER = 0.98  # Share of what hypotheses hold of a place from which on the filter need not be overruled
 
@@ -176,10 +177,10 @@ class Recognition:
         Those are the hypotheses, and, where ways are misread now and then, whether the doors were read right.
         """
         hypotheses, now = self.tracker.hypotheses, self.followed
-        if now is None or not (self._map.visited.all() or _enclosed(now)):
+        misread = now is not None and ways_misread(now) > HARDLY
+        if now is None or (len(hypotheses) < 2 and not misread):
             return None
-        misread = ways_misread(now) > HARDLY
-        if len(hypotheses) < 2 and not misread:
+        if not (self._map.visited.all() or _enclosed(now)):
             return None
         tries = all(look is None for look in self.looked or ()) and _tried(now)
         return OpenQuestion(hypotheses, self.sensing.ways, doors_of=now if misread else None, tries=tries)
@@ -320,10 +321,12 @@ def _tried(h: Hypothesis) -> bool:
 
 
 def _enclosed(h: Hypothesis) -> bool:
-    """Whether no open way leads from where the agent is to a place never seen, however far."""
+    """Whether no open way leads from where the agent is to a place never seen, but for places that are far away."""
     found = {h.here}
     queue = [h.here]
     for number in queue:
+        if len(found) > FAR:
+            break
         record = h.places[number]
         for way in h.awake:
             if open_probability(h, number, way) > 0.5:

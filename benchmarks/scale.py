@@ -126,7 +126,7 @@ def lost(rooms: int, asked: argparse.Namespace) -> Row:
         for step in range(asked.patience):
             room = walk.world.position
             walk.step()
-            if agent.certain and maze.rooms[agent.belief.place] == room:
+            if agent.certain and (room,) == maze.rooms[agent.belief.place : agent.belief.place + 1]:  # or a new place
                 took.append(step)
                 break
         else:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.model import CogmapError, NoPose, Sight, Ways
-from cogmap.worlds import ListedWays, load_world
+from cogmap.worlds import ListedWays, MazeEnv, labyrinth, load_world
 from walks import GRID
 
 from cogmap import UNSEEN
@@ -328,3 +328,13 @@ def test_labels_of_the_first_sensor_can_be_named_by_it() -> None:
 def test_what_no_sensor_sees_cannot_be_hoped_for(sensors: Any, message: str) -> None:
     with pytest.raises(CogmapError, match=message):
         Agent(GRID, seed=0).prefer(sensors=sensors)
+
+
+def test_a_large_map_is_not_in_doubt_because_it_is_large() -> None:
+    maze = labyrinth(400, loops=0.1, sights=50, rng=np.random.default_rng(0))
+    agent, world = Agent(GRID, map=maze.to_networkx(), seed=0), MazeEnv(maze)
+    observation, _ = world.reset(options={"start": maze.rooms[5]})
+    for _ in range(12):
+        observation, *_ = world.step(agent.step(observation))
+    assert agent.certain
+    assert agent._recognition.question is None

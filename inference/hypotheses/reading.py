@@ -11,6 +11,8 @@ from .hypothesis import Hypothesis
 from .rates import RATE_PRIORS, WAY_MISREAD, RateCounts
 from .records import SightCounts
 
+CLEAN = 0.002  # Share of readings that are expected to be misread by a sensor of which nothing says that it errs
+
 
 class RateOf(NamedTuple):
     """A rate as one hypothesis has learned it.
@@ -65,8 +67,9 @@ def _before(h: Hypothesis) -> int | None:
 
 
 def ways_misread(h: Hypothesis) -> float:
-    """How many ways were misread so far, as a hypothesis expects."""
-    return max(h.counts.yes[WAY_MISREAD], 0.0)
+    """How many ways were misread so far, as is expected, beyond what is expected of a sensor that seems clean."""
+    yes, no = h.counts.of(WAY_MISREAD)
+    return max(yes - CLEAN * (yes + no), 0.0)
 
 
 def rates_of(h: Hypothesis) -> list[RateOf]:
