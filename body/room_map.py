@@ -133,7 +133,8 @@ class RoomMap:
         """`[K]` evidence for each kind of tile, summed over tiles of which something is known."""
         x, y = np.array(list(tiles)).T
         x, y = x[self.tile[y, x] >= 0], y[self.tile[y, x] >= 0]
-        return np.bincount(self.tile[y, x], weights=self._sure[y, x], minlength=len(self._words.codes))
+        counts = np.bincount(self.tile[y, x], weights=self._sure[y, x], minlength=len(self._words.codes))
+        return counts.astype(np.float64)
 
     def known(self, tile: mg.Tile) -> bool:
         """Whether anything is known of a tile."""

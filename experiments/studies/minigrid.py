@@ -216,7 +216,8 @@ def _rooms_entered(seed: int, settings: Settings) -> tuple[bool, int]:
     from ...body import RegisteredWorld
 
     world, inside = RegisteredWorld("MiniGrid-KeyCorridorS6R3-v0"), set[Any]()
-    act, grid = world.env.step, world.env.unwrapped
+    grid: Any = world.env.unwrapped
+    act = world.env.step
 
     def step(action: Any) -> Any:
         done = act(action)

@@ -8,8 +8,9 @@ along is found only if it is asked of the whole walk: where places lie to each o
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from heapq import nlargest
+from itertools import pairwise
 from math import lgamma
 from operator import add
 from operator import sub as minus
@@ -27,6 +28,9 @@ from .scheme import Sensed, WayScheme
 BEAM = 64
 """Ways to lay places out that are kept while one place after another is laid down."""
 
+MOST = 64
+"""Labels up to which places are laid out; with more of them a walk is too short to come by each of them often."""
+
 ODD = -8.0
 """Nats for a move between places that do not lie beside each other."""
 
@@ -43,14 +47,15 @@ def surveyed(like: Hypothesis, history: History, *, floor: float) -> Hypothesis 
         floor: log P(walk) below which it is nothing.
 
     Returns:
-        The hypothesis, its weight log P(walk, hypothesis); None where a label was not read, or no move led
-        to it, or below the floor.
+        The hypothesis, its weight log P(walk, hypothesis); None where a label was not read, or there are too many,
+        or below the floor.
     """
-    at, h, start = _laid_out(like, history), like.emptied(), None
-    for time, sensed in history:
-        label = sensed.sights[0]
-        if not isinstance(label, int) or label not in at:
-            return None  # no move led to it
+    steps = list(history)
+    labels = [label for _, sensed in steps if isinstance(label := sensed.sights[0], int)]
+    if len(labels) < len(steps) or len(set(labels)) > MOST:
+        return None
+    at, h, start = _laid_out(like, [sensed for _, sensed in steps], labels), like.emptied(), None
+    for (time, sensed), label in zip(steps, labels, strict=True):
         if start is None:
             start, h.weight = at[label], log_predictive(h, sensed, None, None, NOWHERE)
             begin(h, sensed, time)
@@ -84,21 +89,15 @@ class _Layout(NamedTuple):
     score: float
 
 
-def _laid_out(like: Hypothesis, history: History) -> Mapping[int, Position]:
+def _laid_out(like: Hypothesis, steps: Sequence[Sensed], labels: Sequence[int]) -> Mapping[int, Position]:
     """Where each label lies, one after another, that first which most moves join to those that are laid down."""
     moves, beside = dict[tuple[int, int], Counter[int]](), Counter[tuple[int, int]]()
-    before, left = None, set[int]()
-    for _, sensed in history:
-        label = sensed.sights[0]
-        if not isinstance(label, int):
-            label = None
-        else:
-            left.add(label)
-        if label is not None and before is not None and sensed.action is not None and not sensed.told:
+    for (before, label), sensed in zip(pairwise(labels), steps[1:], strict=True):
+        if sensed.action is not None and not sensed.told:
             if label != before:
                 moves.setdefault((before, label), Counter())[sensed.action] += 1
             beside.update(((before, label), (label, before)))
-        before = label
+    left = set(labels)
     first = max(sorted(left), key=lambda label: sum(n for (one, _), n in beside.items() if one == label))
     beam, left = [_Layout({first: like.scheme.origin}, {}, 0.0)], left - {first}
     while left:
