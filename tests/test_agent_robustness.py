@@ -11,7 +11,7 @@ from cogmap.agent import Agent, Settings
 from cogmap.inference import FilterOptions
 from cogmap.worlds import MazeEnv, load_world
 from cogmap.worlds.generate import random_maze
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import settings as budget
 from hypothesis import strategies as st
 from parts import agent_with
@@ -59,6 +59,22 @@ def meddle(world: MazeEnv, rng: np.random.Generator) -> None:
     given_options=options,
     steer=st.booleans(),
 )
+@example(
+    seed=72821,
+    rooms=6,
+    sights=2,
+    steer=True,
+    given_options={
+        "look_ahead": 1,
+        "growth": "static",
+        "policies": "map_guided",
+        "choice": "outward",
+        "window": 1,
+        "certainty": 0.0,
+        "forgetting": 0.0,
+        "engine": "numpy",
+    },
+)  # the map is built anew without the place it began with
 @budget(max_examples=25, deadline=None)
 def test_walks_through_random_mazes_that_change(
     seed: int, rooms: int, sights: int | None, given_options: dict[str, Any], steer: bool

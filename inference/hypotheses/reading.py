@@ -67,9 +67,9 @@ def _before(h: Hypothesis) -> int | None:
 
 
 def ways_misread(h: Hypothesis) -> float:
-    """How many ways were misread so far, as is expected, beyond what is expected of a sensor that seems clean."""
+    """How many ways were misread so far, as is expected; none where a clean sensor seems to do so."""
     yes, no = h.counts.of(WAY_MISREAD)
-    return max(yes - CLEAN * (yes + no), 0.0)
+    return yes if yes > CLEAN * (yes + no) else 0.0
 
 
 def rates_of(h: Hypothesis) -> list[RateOf]:

@@ -54,10 +54,12 @@ class StaticGrowth(Growth):
         position, there = map_.pose.ahead(here, action)
         if position is None or there is not None or map_.transitions.beyond(here, action) is not None:
             return []
-        free = np.flatnonzero(map_.pose.of(np.arange(len(map_.places))) < 0)
-        if not len(free):
+        free = np.flatnonzero(map_.pose.of(np.arange(len(map_.places))) < 0).tolist()
+        if not free and len(map_.places) < self.places:  # a map that was built anew without the place it began with
+            free = [map_.new_place(step=step)]
+        if not free:
             raise CogmapError(
                 f"growth: the world is larger than its {self.places} places; give static growth more, or grow otherwise"
             )
-        map_.bind(int(free[0]), position, step=step, source=here, action=action)
-        return [int(free[0])]
+        map_.bind(free[0], position, step=step, source=here, action=action)
+        return [free[0]]
