@@ -71,7 +71,11 @@ def _action(known: KnownMap, model: GenerativeModel, way: GivenWay) -> int:
         return motions.inverse[action] if way.reverse else action
     here, there = (position_of(known.nodes[node]) for node in (way.source, way.target))
     if name is None and here is not None and there is not None:
-        across = tuple(b - a for a, b in zip(here, there, strict=False))
+        try:
+            across = tuple(b - a for a, b in zip(here, there, strict=False))
+        except TypeError as error:
+            ends = f"{way.source!r} lies at {here!r} and {way.target!r} at {there!r}"
+            raise CogmapError(f"{known.where}: {ends}; give tuples of numbers") from error
         if across in motions.displacements:
             return motions.displacements.index(across)
     moving = [action for action in range(len(motions)) if action != motions.stay]

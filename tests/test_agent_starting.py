@@ -213,6 +213,12 @@ def linked(*ends: Any, **facts: Any) -> Any:
     return graph
 
 
+def placed(position: Any) -> Any:
+    graph: Any = load_world("3x3").unwrapped.maze.to_networkx()
+    graph.nodes[0, 0]["position"] = position
+    return graph
+
+
 BAD: dict[str, tuple[Any, str]] = {
     "a number": (3, "map: it is a int; give a networkx graph, or a file of one"),
     "no graph": (nx.Graph(), "map: it has no node"),
@@ -224,6 +230,8 @@ BAD: dict[str, tuple[Any, str]] = {
     "two in one place": (one_more(sight=1, position=(1, 1)), r"two places lie at \(1, 1\)"),
     "nowhere at all": (nx.Graph([(0, 1, {"way": "up"}), (2, 3, {"way": "up"})]), "not all its places hang together"),
     "half a position": (one_more(sight=1, position=(0.5, 7)), r"position \(0.5, 7\) is not 2 whole numbers"),
+    "a position in words": (placed("here"), r"\(0, 0\) lies at 'here' and .* give tuples of numbers"),
+    "a position of one number": (placed(5), r"\(0, 0\) lies at 5 and .* give tuples of numbers"),
     "a short position": (one_more(sight=1, position=(7,)), "is not 2 whole numbers"),
     "a sight that is none": (one_more(sight={1: -1.0}, position=(7, 7)), "node 'attic': observation: sight has likel"),
 }

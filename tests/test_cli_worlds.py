@@ -36,7 +36,16 @@ def test_version_and_help() -> None:
     assert "explore" in bare.stdout
 
 
-@pytest.mark.parametrize("arguments", [["frob"], ["--frob"], ["worlds", "x"], ["worlds", "--json", "/no/w.json"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["frob"],
+        ["--frob"],
+        ["worlds", "x"],
+        ["worlds", "--json", "/no/w.json"],
+        ["explore", "4x4", "--told", "lengths"],  # mazes tell what moves do
+    ],
+)
 def test_bad_input(arguments: list[str]) -> None:
     result = CliRunner().invoke(app, arguments)
     assert result.exit_code == 2

@@ -45,11 +45,13 @@ def load_world(
         strong: refuse graphs that are not strongly connected.
 
     Raises:
-        WorldError: sights that cannot be given, neither a name nor a file, or a file that has no such world in it.
+        WorldError: sights that cannot be given, a pose of a maze, neither a name nor a file, or a file that has no such
+            world in it.
     """
     if sights is not None:
         give_sights(sights, ())  # is it any of the three
     if isinstance(name_or_path, str) and (name := _ID.sub(r"\1", name_or_path)) in MAZES:
+        _refuse_pose(pose, name)
         return MazeEnv(MAZES[name], render_mode=render_mode)
     if not isinstance(name_or_path, (str, Path)):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise WorldError(f"{name_or_path!r} is no world; give a name or a path, or MazeEnv(maze)")
@@ -60,8 +62,16 @@ def load_world(
     if is_graph_file(name_or_path) and not Path(name_or_path).is_dir():
         options: dict[str, Any] = {"sights": sights, "seed": seed, "sensors": sensors, "pose": pose, "strong": strong}
         return GraphWorld(read_graph(name_or_path, **options))
+    _refuse_pose(pose, name_or_path)
     drawn = "distinct" if sights is None else sights
     return MazeEnv(read_maze(name_or_path, format=format, sights=drawn, seed=seed), render_mode=render_mode)
+
+
+def _refuse_pose(pose: str | None, world: str | Path) -> None:
+    if pose not in (None, "motions"):
+        raise WorldError(
+            f"pose {pose!r} is for graph files, not for the maze {str(world)!r}, whose moves are told: leave it out"
+        )
 
 
 def world_of(chart: Chart) -> PlaceEnv:
