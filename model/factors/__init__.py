@@ -9,7 +9,7 @@ from .pose import POSES, Ahead, Lattice, NoPose, Plane, Pose
 from .sensor import Sensor
 from .sight import SHOWN, Sight
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
-from .ways import Ways
+from .ways import FEW_WAYS, Ways
 
 SENSORS: dict[str, type[Sensor]] = {
     "sight": Sight,
@@ -21,7 +21,7 @@ SENSORS: dict[str, type[Sensor]] = {
 """Kinds of sensors by name."""
 
 __all__ = [
-    "BLOCKED", "ELSEWHERE", "OPEN", "POSES", "SENSORS", "SHOWN", "UNKNOWN", "Ahead", "Bearings", "Context", "Contexts",
-    "Displacement", "Features", "Lattice", "ModelFactor", "NoPose", "Plane", "Pose", "Sensor", "Sight", "Successors",
-    "Support", "Table", "Transition", "Ways", "parts_of",
+    "BLOCKED", "ELSEWHERE", "FEW_WAYS", "OPEN", "POSES", "SENSORS", "SHOWN", "UNKNOWN", "Ahead", "Bearings", "Context",
+    "Contexts", "Displacement", "Features", "Lattice", "ModelFactor", "NoPose", "Plane", "Pose", "Sensor", "Sight",
+    "Successors", "Support", "Table", "Transition", "Ways", "parts_of",
 ]  # fmt: skip
