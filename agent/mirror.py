@@ -8,17 +8,11 @@ from numpy.typing import NDArray
 
 from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, together, whereabouts
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
+from .counterparts import Counterparts
+from .doors import Doors
 
 WALKS = 3  # Walks along a way from which on more of them add nothing to its counts
 SURE = 0.9  # From this probability on a way is taken to be open, or shut
-
-Doors = tuple[bool | float | None, ...]
-"""For each action whether its way is believed open, or how much so; None where nothing is known of it."""
-
-
-def passable(doors: Doors) -> tuple[bool, ...]:
-    """For each action whether something may lie beyond: where nothing is known of its way, it may."""
-    return tuple(door is None or door > 0.5 for door in doors)
 
 
 class Journal(dict[int, Any]):
@@ -48,6 +42,7 @@ class Mirror:
         places: by number of a place of the hypothesis, the place of the map.
         missed: the places of the hypothesis of which the map was not taught what the last steps said.
         ways: what teaches the map which ways are open.
+        counterparts: the same rooms in other contexts; `places` are those of the one that the agent is in.
     """
 
     def __init__(self, map_: CognitiveMap, growth: Growth, actions: Sequence[int]) -> None:
@@ -57,6 +52,7 @@ class Mirror:
         self._records: dict[int, Place] = {}
         found = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Ways)]
         self.ways = found[0] if found else map_.unsensed_ways()
+        self.counterparts = Counterparts(map_, growth, self.ways)
 
     @property
     def in_order(self) -> tuple[int, ...]:
@@ -146,7 +142,8 @@ class Mirror:
             known = record.ways[way]
             heard = known.net or known.walks or h.neighbour(record, way) != NOWHERE
             doors[self._actions[way]] = _sure(open_probability(h, number, way)) if heard else None
-        return tuple(doors)
+        place = self.places.get(number)
+        return tuple(doors) if place is None else self.counterparts.corrected(place, tuple(doors))
 
     def one_way(self, h: Hypothesis, number: int) -> tuple[int, ...]:
         """The actions whose ways from a place are no way back: what is known of one side says nothing of the other.
@@ -273,10 +270,13 @@ class Mirror:
         numbers = sorted(h.places)
         for number in numbers:
             self._add(h, number, step=step)
-        self._teach(h, numbers, step=step)
         for number in numbers:
             if number in before:
                 self._give_back(kept, before[number], self.places[number])
+        self.counterparts.rebuilt(self.places.values(), here=self.places[h.here], step=step)
+        self._teach(h, numbers, step=step)
+        for place in self.places.values():
+            self.counterparts.share(place, step=step)
         return {before[number]: self.places[number] for number in numbers if number in before}
 
     def _ahead(self, source: int, way: int) -> Position | None:
@@ -317,7 +317,7 @@ class Mirror:
             self._link(h, number)
         for number in numbers:
             place, doors = self.places[number], self.doors(h, number)
-            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), passable(doors), step=step))
+            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), self.counterparts.beyond(doors), step=step))
             self._teach_place(h, number, doors)
         for number in numbers:
             self._walk(h, number)
