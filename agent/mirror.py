@@ -6,7 +6,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, together, whereabouts
+from ..inference import (
+    NOWHERE,
+    Hypothesis,
+    Place,
+    label_probabilities,
+    open_probability,
+    together,
+    whereabouts,
+)
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 
 WALKS = 3  # Walks along a way from which on more of them add nothing to its counts
@@ -235,13 +243,17 @@ class Mirror:
                 return False
         return True
 
-    def _leads_there(self, h: Hypothesis, number: int, place: int | None) -> bool:
-        """Whether the ways of a place lead to where the pose says, and none that is shut to a place only imagined."""
+    def _leads_there(self, h: Hypothesis, number: int, place: int | None, *, told: bool = False) -> bool:
+        """Whether the ways of a place lead to where the pose says, and none that is shut to a place only imagined.
+
+        With `told` a way may lead elsewhere if that is where the map has it lead.
+        """
         record, map_ = h.places[number], self._map
         for way in h.awake:
             action, to = self._actions[way], record.ways[way].to
             if to != NOWHERE and h.scheme.displacements is not None:
-                if h.beyond(record, way) != (h.places[to].frame, h.places[to].position):
+                as_told = told and place is not None and map_.beyond(place, action) == self.places.get(to)
+                if not as_told and h.beyond(record, way) != (h.places[to].frame, h.places[to].position):
                     return False
             elif place is not None and to == NOWHERE and open_probability(h, number, way) < 0.5:
                 beyond = map_.beyond(place, action)
@@ -258,15 +270,17 @@ class Mirror:
                 return True
         return False
 
-    def shut_out(self, h: Hypothesis) -> bool:
-        """Whether a way of the place where the agent is, now believed shut, was all that led to an imagined place."""
+    def outdated(self, h: Hypothesis) -> bool:
+        """Whether a way of the place where the agent is leads elsewhere than the map has it, or is now believed shut
+        and was all that led to an imagined place."""
         place = self.places.get(h.here)
-        return place is not None and not self._leads_there(h, h.here, place)
+        return place is not None and not self._leads_there(h, h.here, place, told=True)
 
     # -- building ------------------------------------------------------------------------------------------
 
     def _rebuild(self, h: Hypothesis, *, step: int) -> dict[int, int]:
-        before, kept = self.places, self._kept()
+        same, before, kept = self._same(h), self.places, self._kept()
+        faded = self._faded(h, same, step=step) if self._map.transitions.fading else {}
         self._map.clear(step=step)
         self._map.pose.close(h.periods.get(0, ()))
         self.places = {}
@@ -274,10 +288,56 @@ class Mirror:
         for number in numbers:
             self._add(h, number, step=step)
         self._teach(h, numbers, step=step)
-        for number in numbers:
-            if number in before:
-                self._give_back(kept, before[number], self.places[number])
-        return {before[number]: self.places[number] for number in numbers if number in before}
+        for old, number in same.items():
+            self._give_back(kept, before[old], self.places[number])
+        for (number, action), levels in faded.items():
+            self._let_fade(self.places[number], action, levels)
+        return {before[old]: self.places[number] for old, number in same.items()}
+
+    def _same(self, h: Hypothesis) -> dict[int, int]:
+        """By number of a place of the map as it is, the place of a hypothesis where the agent was at its last visit.
+
+        The one that has kept its number comes last, so that it counts where others are one with it now.
+        """
+        visits = {time: number for number in h.places for time in h.places[number].recent}
+        last = {old: record.recent[-1] for old, record in self._records.items() if old in self.places and record.recent}
+        found = {old: visits.get(last.get(old, NOWHERE)) for old in self.places}
+        found |= {old: old for old in self.places if h.places.get(old) is not None}
+        return dict(
+            sorted(((old, new) for old, new in found.items() if new is not None), key=lambda pair: pair[0] == pair[1])
+        )
+
+    def _faded(
+        self, h: Hypothesis, same: Mapping[int, int], *, step: int
+    ) -> dict[tuple[int, int], tuple[float, float]]:
+        """By place and action, the counts of ways of which this step says nothing, as they are now."""
+        left: dict[tuple[int, int], tuple[float, float]] = {}
+        for old, number in same.items():
+            was, now = self._records[old], h.places[number]
+            if number == h.here or old in self.missed:
+                continue
+            for way in h.awake:
+                to, before = now.ways[way].to, was.ways[way].to
+                walked = to == h.here and now.recent[-1:] == (step - 1,)
+                alike = same.get(before, NOWHERE) == to and (now.ways[way].net > 0.0) == (was.ways[way].net > 0.0)
+                if alike and not walked:
+                    left[number, self._actions[way]] = self._counts(self.places[old], self._actions[way])
+        return left
+
+    def _counts(self, place: int, action: int) -> tuple[float, float]:
+        """Evidence that a way is blocked, and that it leads on."""
+        transitions, beyond = self._map.transitions, self._map.beyond(place, action)
+        row = transitions.row(place, action)
+        return transitions.table.evidence(row, place), (
+            0.0 if beyond is None else transitions.table.evidence(row, beyond)
+        )
+
+    def _let_fade(self, place: int, action: int, levels: tuple[float, float]) -> None:
+        """Have no more counts of a way than these."""
+        have, ends = self._counts(place, action), (place, self._map.beyond(place, action))
+        for next_, now, level in zip(ends, have, levels, strict=True):
+            if next_ is not None and now > level:
+                self._map.transitions.level(next_, place, action, level)
 
     def _ahead(self, source: int, way: int) -> Position | None:
         """Where a way leads as the pose of the map has it."""

@@ -297,3 +297,22 @@ def test_what_is_hardly_probable_counts_for_more_where_trying_is_all_that_is_lef
     asked, tried = (OpenQuestion(tracker.hypotheses, {0: 0, 1: 1}, tries=tries) for tries in (False, True))
     assert len(asked.weights) > 1
     assert tried.weights == pytest.approx([weight**0.5 for weight in asked.weights])
+
+
+def test_what_has_faded_stays_faded_when_the_map_is_built_anew() -> None:
+    world: Any = load_world("tolman")
+    world.reset(options={"start": (6, 2)})
+    agent, names = Agent(world.motions, settings=Settings(forgetting=0.2), seed=0), world.motions.names
+    taken: dict[str, str] = {}
+    for walk in ("lluuurruuudrrrdddddl", "uuuuuu", "uuuuuu"):  # it is put back as if by a step to the left
+        observation = {**world.unwrapped.displace((6, 2)), **taken}
+        for action in (index for letter in walk for index, name in enumerate(names) if name[0] == letter):
+            agent.perceive(observation)
+            taken = {"taken": names[action]}
+            observation = {**world.step(action)[0], **taken}
+    transitions, now, long_ago = agent.map.transitions, agent.map.place_at((-4, 0)), agent.map.place_at((0, -1))
+    assert now is not None
+    assert long_ago is not None
+    counts = [transitions.table.concentrations(row) for row in transitions.rows(np.array([now, long_ago])).tolist()]
+    assert max(counts[names.index("up")].values()) > 1.0
+    assert max(counts[len(names) + names.index("left")].values()) < 0.1
