@@ -6,27 +6,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..inference import (
-    NOWHERE,
-    Hypothesis,
-    Place,
-    label_probabilities,
-    open_probability,
-    together,
-    whereabouts,
-)
+from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, together, whereabouts
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
+from .counterparts import Counterparts
+from .doors import Doors
+from .fading import Counts, fade_to, left_of, still_there, unheard
 
 WALKS = 3  # Walks along a way from which on more of them add nothing to its counts
 SURE = 0.9  # From this probability on a way is taken to be open, or shut
-
-Doors = tuple[bool | float | None, ...]
-"""For each action whether its way is believed open, or how much so; None where nothing is known of it."""
-
-
-def passable(doors: Doors) -> tuple[bool, ...]:
-    """For each action whether something may lie beyond: where nothing is known of its way, it may."""
-    return tuple(door is None or door > 0.5 for door in doors)
 
 
 class Journal(dict[int, Any]):
@@ -56,6 +43,7 @@ class Mirror:
         places: by number of a place of the hypothesis, the place of the map.
         missed: the places of the hypothesis of which the map was not taught what the last steps said.
         ways: what teaches the map which ways are open.
+        counterparts: the same rooms in other contexts; `places` are those of the one that the agent is in.
     """
 
     def __init__(self, map_: CognitiveMap, growth: Growth, actions: Sequence[int]) -> None:
@@ -65,6 +53,7 @@ class Mirror:
         self._records: dict[int, Place] = {}
         found = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Ways)]
         self.ways = found[0] if found else map_.unsensed_ways()
+        self.counterparts = Counterparts(map_, growth, self.ways)
 
     @property
     def in_order(self) -> tuple[int, ...]:
@@ -154,7 +143,8 @@ class Mirror:
             known = record.ways[way]
             heard = known.net or known.walks or h.neighbour(record, way) != NOWHERE
             doors[self._actions[way]] = _sure(open_probability(h, number, way)) if heard else None
-        return tuple(doors)
+        place = self.places.get(number)
+        return tuple(doors) if place is None else self.counterparts.corrected(place, tuple(doors))
 
     def one_way(self, h: Hypothesis, number: int) -> tuple[int, ...]:
         """The actions whose ways from a place are no way back: what is known of one side says nothing of the other.
@@ -279,7 +269,7 @@ class Mirror:
     # -- building ------------------------------------------------------------------------------------------
 
     def _rebuild(self, h: Hypothesis, *, step: int) -> dict[int, int]:
-        same, before, kept = self._same(h), self.places, self._kept()
+        same, before, kept = still_there(h, self._records, self.places), self.places, self._kept()
         faded = self._faded(h, same, step=step) if self._map.transitions.fading else {}
         self._map.clear(step=step)
         self._map.pose.close(h.periods.get(0, ()))
@@ -287,57 +277,23 @@ class Mirror:
         numbers = sorted(h.places)
         for number in numbers:
             self._add(h, number, step=step)
-        self._teach(h, numbers, step=step)
         for old, number in same.items():
             self._give_back(kept, before[old], self.places[number])
-        for (number, action), levels in faded.items():
-            self._let_fade(self.places[number], action, levels)
+        self.counterparts.rebuilt(self.places.values(), here=self.places[h.here], step=step)
+        self._teach(h, numbers, step=step)
+        for (number, action), counts in faded.items():
+            fade_to(self._map, self.places[number], action, counts)
+        for place in self.places.values():
+            self.counterparts.share(place, step=step)
         return {before[old]: self.places[number] for old, number in same.items()}
 
-    def _same(self, h: Hypothesis) -> dict[int, int]:
-        """By number of a place of the map as it is, the place of a hypothesis where the agent was at its last visit.
-
-        The one that has kept its number comes last, so that it counts where others are one with it now.
-        """
-        visits = {time: number for number in h.places for time in h.places[number].recent}
-        last = {old: record.recent[-1] for old, record in self._records.items() if old in self.places and record.recent}
-        found = {old: visits.get(last.get(old, NOWHERE)) for old in self.places}
-        found |= {old: old for old in self.places if h.places.get(old) is not None}
-        return dict(
-            sorted(((old, new) for old, new in found.items() if new is not None), key=lambda pair: pair[0] == pair[1])
-        )
-
-    def _faded(
-        self, h: Hypothesis, same: Mapping[int, int], *, step: int
-    ) -> dict[tuple[int, int], tuple[float, float]]:
-        """By place and action, the counts of ways of which this step says nothing, as they are now."""
-        left: dict[tuple[int, int], tuple[float, float]] = {}
-        for old, number in same.items():
-            was, now = self._records[old], h.places[number]
-            if number == h.here or old in self.missed:
-                continue
-            for way in h.awake:
-                to, before = now.ways[way].to, was.ways[way].to
-                walked = to == h.here and now.recent[-1:] == (step - 1,)
-                alike = same.get(before, NOWHERE) == to and (now.ways[way].net > 0.0) == (was.ways[way].net > 0.0)
-                if alike and not walked:
-                    left[number, self._actions[way]] = self._counts(self.places[old], self._actions[way])
-        return left
-
-    def _counts(self, place: int, action: int) -> tuple[float, float]:
-        """Evidence that a way is blocked, and that it leads on."""
-        transitions, beyond = self._map.transitions, self._map.beyond(place, action)
-        row = transitions.row(place, action)
-        return transitions.table.evidence(row, place), (
-            0.0 if beyond is None else transitions.table.evidence(row, beyond)
-        )
-
-    def _let_fade(self, place: int, action: int, levels: tuple[float, float]) -> None:
-        """Have no more counts of a way than these."""
-        have, ends = self._counts(place, action), (place, self._map.beyond(place, action))
-        for next_, now, level in zip(ends, have, levels, strict=True):
-            if next_ is not None and now > level:
-                self._map.transitions.level(next_, place, action, level)
+    def _faded(self, h: Hypothesis, same: Mapping[int, int], *, step: int) -> dict[tuple[int, int], Counts]:
+        """By number of a place and action, the counts of ways of which this step says nothing."""
+        ways = [(old, way) for old, way in unheard(h, self._records, same, step) if old not in self.missed]
+        return {
+            (same[old], self._actions[way]): left_of(self._map, self.places[old], self._actions[way])
+            for old, way in ways
+        }
 
     def _ahead(self, source: int, way: int) -> Position | None:
         """Where a way leads as the pose of the map has it."""
@@ -377,7 +333,7 @@ class Mirror:
             self._link(h, number)
         for number in numbers:
             place, doors = self.places[number], self.doors(h, number)
-            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), passable(doors), step=step))
+            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), self.counterparts.beyond(doors), step=step))
             self._teach_place(h, number, doors)
         for number in numbers:
             self._walk(h, number)
