@@ -315,3 +315,22 @@ def test_hypotheses_that_no_walk_tells_apart_are_asked_as_one() -> None:
 
 def test_a_doubt_that_is_small_is_looked_into_where_nothing_else_is_left_to_do() -> None:
     assert kidnap(MAZES["t_maze_alias"], seed=5).map_intact  # it was moved while it was open how long the stem is
+
+
+def test_what_has_faded_stays_faded_when_the_map_is_built_anew() -> None:
+    world: Any = load_world("tolman")
+    world.reset(options={"start": (6, 2)})
+    agent, names = Agent(world.motions, settings=Settings(forgetting=0.2), seed=0), world.motions.names
+    taken: dict[str, str] = {}
+    for walk in ("lluuurruuudrrrdddddl", "uuuuuu", "uuuuuu"):  # it is put back as if by a step to the left
+        observation = {**world.unwrapped.displace((6, 2)), **taken}
+        for action in (index for letter in walk for index, name in enumerate(names) if name[0] == letter):
+            agent.perceive(observation)
+            taken = {"taken": names[action]}
+            observation = {**world.step(action)[0], **taken}
+    transitions, now, long_ago = agent.map.transitions, agent.map.place_at((-4, 0)), agent.map.place_at((0, -1))
+    assert now is not None
+    assert long_ago is not None
+    counts = [transitions.table.concentrations(row) for row in transitions.rows(np.array([now, long_ago])).tolist()]
+    assert max(counts[names.index("up")].values()) > 1.0
+    assert max(counts[len(names) + names.index("left")].values()) < 0.1
