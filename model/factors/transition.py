@@ -34,6 +34,7 @@ class Transition(ModelFactor):
         table: B_s.
         sensed: `[S, K]` what was last sensed of each door.
         walked: `[S, K]` whether each way was ever walked.
+        fading: whether evidence fades.
         carried_out: `[K]` P(action carried out | an action given), as whoever learns it has it; None where actions
             hardly ever go astray, as long as nobody says otherwise.
     """
@@ -48,6 +49,7 @@ class Transition(ModelFactor):
         self.table = SparseDirichlet(name="B_s", slots=2, rows_each=size, changes=log)
         self.sensed = Column("sensed", np.int8, width=size, changes=log)
         self.walked = Column("walked", np.bool_, width=size, changes=log)
+        self.fading = False
 
     @property
     def stores(self) -> tuple[Store, ...]:
@@ -280,6 +282,7 @@ class Transition(ModelFactor):
 
     def forget(self, keep: float) -> None:
         """Let all evidence fade by the factor `keep`."""
+        self.fading = True
         self.table.fade(keep)
 
 
