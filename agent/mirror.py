@@ -10,6 +10,7 @@ from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_pr
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 from .counterparts import Counterparts
 from .doors import Doors
+from .fading import Counts, fade_to, left_of, still_there, unheard
 
 WALKS = 3  # Walks along a way from which on more of them add nothing to its counts
 SURE = 0.9  # From this probability on a way is taken to be open, or shut
@@ -232,13 +233,17 @@ class Mirror:
                 return False
         return True
 
-    def _leads_there(self, h: Hypothesis, number: int, place: int | None) -> bool:
-        """Whether the ways of a place lead to where the pose says, and none that is shut to a place only imagined."""
+    def _leads_there(self, h: Hypothesis, number: int, place: int | None, *, told: bool = False) -> bool:
+        """Whether the ways of a place lead to where the pose says, and none that is shut to a place only imagined.
+
+        With `told` a way may lead elsewhere if that is where the map has it lead.
+        """
         record, map_ = h.places[number], self._map
         for way in h.awake:
             action, to = self._actions[way], record.ways[way].to
             if to != NOWHERE and h.scheme.displacements is not None:
-                if h.beyond(record, way) != (h.places[to].frame, h.places[to].position):
+                as_told = told and place is not None and map_.beyond(place, action) == self.places.get(to)
+                if not as_told and h.beyond(record, way) != (h.places[to].frame, h.places[to].position):
                     return False
             elif place is not None and to == NOWHERE and open_probability(h, number, way) < 0.5:
                 beyond = map_.beyond(place, action)
@@ -255,29 +260,40 @@ class Mirror:
                 return True
         return False
 
-    def shut_out(self, h: Hypothesis) -> bool:
-        """Whether a way of the place where the agent is, now believed shut, was all that led to an imagined place."""
+    def outdated(self, h: Hypothesis) -> bool:
+        """Whether a way of the place where the agent is leads elsewhere than the map has it, or is now believed shut
+        and was all that led to an imagined place."""
         place = self.places.get(h.here)
-        return place is not None and not self._leads_there(h, h.here, place)
+        return place is not None and not self._leads_there(h, h.here, place, told=True)
 
     # -- building ------------------------------------------------------------------------------------------
 
     def _rebuild(self, h: Hypothesis, *, step: int) -> dict[int, int]:
-        before, kept = self.places, self._kept()
+        same, before, kept = still_there(h, self._records, self.places), self.places, self._kept()
+        faded = self._faded(h, same, step=step) if self._map.transitions.fading else {}
         self._map.clear(step=step)
         self._map.pose.close(h.periods.get(0, ()))
         self.places = {}
         numbers = sorted(h.places)
         for number in numbers:
             self._add(h, number, step=step)
-        for number in numbers:
-            if number in before:
-                self._give_back(kept, before[number], self.places[number])
+        for old, number in same.items():
+            self._give_back(kept, before[old], self.places[number])
         self.counterparts.rebuilt(self.places.values(), here=self.places[h.here], step=step)
         self._teach(h, numbers, step=step)
+        for (number, action), counts in faded.items():
+            fade_to(self._map, self.places[number], action, counts)
         for place in self.places.values():
             self.counterparts.share(place, step=step)
-        return {before[number]: self.places[number] for number in numbers if number in before}
+        return {before[old]: self.places[number] for old, number in same.items()}
+
+    def _faded(self, h: Hypothesis, same: Mapping[int, int], *, step: int) -> dict[tuple[int, int], Counts]:
+        """By number of a place and action, the counts of ways of which this step says nothing."""
+        ways = [(old, way) for old, way in unheard(h, self._records, same, step) if old not in self.missed]
+        return {
+            (same[old], self._actions[way]): left_of(self._map, self.places[old], self._actions[way])
+            for old, way in ways
+        }
 
     def _ahead(self, source: int, way: int) -> Position | None:
         """Where a way leads as the pose of the map has it."""

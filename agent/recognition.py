@@ -205,7 +205,7 @@ class Recognition:
     def grown(self, place: int) -> bool:
         """The map was taught the last step, in this place; whether it is what the hypothesis says."""
         self.mirror.grown(self._now, place, self._now.touched)
-        return not self.mirror.shut_out(self._now)
+        return not self.mirror.outdated(self._now)
 
     def follow(self, *, step: int) -> dict[int, int] | None:
         """Have the map say what the most probable hypothesis says; see `Mirror.follow`."""
