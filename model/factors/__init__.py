@@ -10,7 +10,7 @@ from .pose import POSES, Ahead, Lattice, NoPose, Plane, Pose
 from .sensor import Sensor
 from .sight import SHOWN, Sight
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
-from .ways import Ways
+from .ways import FEW_WAYS, Ways
 
 SENSORS: dict[str, type[Sensor]] = {
     "sight": Sight,
@@ -24,7 +24,7 @@ SENSORS: dict[str, type[Sensor]] = {
 """Kinds of sensors by name."""
 
 __all__ = [
-    "BLOCKED", "ELSEWHERE", "NOTHING", "OPEN", "POSES", "SENSORS", "SHOWN", "UNKNOWN", "Ahead", "Bearings", "Carried",
-    "Context", "Contexts", "Displacement", "Features", "Lattice", "Locks", "ModelFactor", "NoPose", "Plane", "Pose",
-    "Sensor", "Sight", "Successors", "Support", "Table", "Transition", "Ways", "parts_of",
+    "BLOCKED", "ELSEWHERE", "FEW_WAYS", "NOTHING", "OPEN", "POSES", "SENSORS", "SHOWN", "UNKNOWN", "Ahead", "Bearings",
+    "Carried", "Context", "Contexts", "Displacement", "Features", "Lattice", "Locks", "ModelFactor", "NoPose", "Plane",
+    "Pose", "Sensor", "Sight", "Successors", "Support", "Table", "Transition", "Ways", "parts_of",
 ]  # fmt: skip

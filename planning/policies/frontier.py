@@ -128,19 +128,16 @@ def _by_steps(around: Surroundings, reach: float) -> _Search:
 
 def _ahead(around: Surroundings, search: _Search, level: list[int], steps: int) -> list[int]:
     """The places that were entered `steps` steps away, one from those of `level`; the others are ends of the search."""
-    rows = (around.cache.likely(np.array(level)) if steps > 1 else around.sensed()).tolist()
+    rows = around.cache.likely(np.array(level)) if steps > 1 else around.sensed()
     visited, ahead = around.map.visited, list[int]()
-    for place, row in zip(level, rows, strict=True):
-        for action, after in _cheapest_first(row, search.prices if steps == 1 else None):
-            if after >= 0 and after not in search.depth:
-                search.depth[after], search.before[after] = steps, (place, action)
-                (ahead if visited[after] else search.ends).append(after)
+    at, actions = np.nonzero(rows >= 0)
+    if steps == 1 and search.prices is not None:  # of two ways to one place the one that begins cheaper is taken
+        actions = actions[np.argsort(search.prices[actions], kind="stable")]
+    for row, action, after in zip(at.tolist(), actions.tolist(), rows[at, actions].tolist(), strict=True):
+        if after not in search.depth:
+            search.depth[after], search.before[after] = steps, (level[row], action)
+            (ahead if visited[after] else search.ends).append(after)
     return ahead
-
-
-def _cheapest_first(row: list[int], prices: Floats | None) -> list[tuple[int, int]]:
-    """Actions and where they lead; of two ways to one place the one that begins cheaper is taken."""
-    return list(enumerate(row)) if prices is None else [(a, row[a]) for a in np.argsort(prices, kind="stable").tolist()]
 
 
 def _by_length(around: Surroundings, reach: float) -> _Search:
