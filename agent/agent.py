@@ -11,9 +11,12 @@ import numpy as np
 
 from ..inference import Belief, advance, begin
 from ..model import (
+    NOTHING,
+    Carried,
     CogmapError,
     Contexts,
     Growth,
+    Locks,
     MotionSpec,
     Percept,
     Pose,
@@ -49,7 +52,8 @@ class Agent(Filed):
     Args:
         motions: names and displacements of the actions: `world.motions`, or a mapping name -> displacement; may be left
             out where the map says them.
-        sensors: what it senses; `Sight("sight")` and `Ways()` unless given.
+        sensors: what it senses; `Sight("sight")` and `Ways()` unless given, and where motions take things also
+            `Carried` and `Locks`.
         pose: how places lie to each other; `Lattice()` unless given.
         growth: when places are added; `PredictedGrowth()` unless given.
         planner: how it plans: policies, terms of G, choice; `Planner()` unless given.
@@ -94,6 +98,9 @@ class Agent(Filed):
             motions = known.motions
         if sensors is None and known is not None and known.contexts:
             sensors = [Sight(), Ways(), Contexts(known.contexts)]
+        elif sensors is None and (takes := getattr(motions, "takes", ())):
+            carried = (NOTHING, *dict.fromkeys(what for what in takes if what))
+            sensors = [Sight(), Ways(), Carried(carried), Locks(carried)]
         self._assemble(motions, sensors, pose, growth, planner, settings or Settings(), seed)
         self.keep = keep
         if known is None:
@@ -184,7 +191,7 @@ class Agent(Filed):
         self.map.grow_time(step=state.steps)
         percept = percept_of(values, self.map, action=state.action, open_=state.open, step=state.steps)
         if self._recognising:
-            self._recognition.take_in(percept)
+            self._recognition.take_in(percept, step=state.steps)
         self._infer(percept)
         self._teach(percept)
         state.expected = None

@@ -115,10 +115,11 @@ class Filed(Whole):
 def _told(motions: Motions) -> dict[str, Any]:
     """Actions as plain JSON values; where they have no displacements, who undoes whom is said instead."""
     reverse = {} if motions.placed else {"reverse": motions.inverse}
-    return {"names": motions.names, "displacements": motions.displacements, **reverse}
+    takes = {"takes": motions.takes} if motions.takes else {}
+    return {"names": motions.names, "displacements": motions.displacements, **reverse, **takes}
 
 
 def _motions(told: Mapping[str, Any]) -> Motions:
     if "reverse" in told:
-        return Motions(tuple(told["names"]), (), tuple(told["reverse"]))
+        return Motions(tuple(told["names"]), (), tuple(told["reverse"]), tuple(told.get("takes", ())))
     return Motions.of(dict(zip(told["names"], told["displacements"], strict=True)))

@@ -4,7 +4,8 @@ from collections.abc import Collection
 
 from ..inference import Belief
 from ..model import CognitiveMap, Growth, Percept, Ways, Whereabouts
-from .mirror import Doors, passable
+from .counterparts import Counterparts
+from .doors import Doors
 from .settings import Settings
 
 
@@ -15,13 +16,17 @@ class Mapper:
         map_: the map.
         growth: its growth rule.
         ways: what teaches the map which ways are open.
+        counterparts: its rooms in other contexts.
         settings: how certain one must be, and how much fades.
     """
 
-    def __init__(self, map_: CognitiveMap, growth: Growth, ways: Ways, settings: Settings) -> None:
+    def __init__(
+        self, map_: CognitiveMap, growth: Growth, ways: Ways, counterparts: Counterparts, settings: Settings
+    ) -> None:
         self._map = map_
         self._growth = growth
         self._ways = ways
+        self._counterparts = counterparts
         self._settings = settings
 
     def enter(self, belief: Whereabouts, action: int, *, step: int) -> None:
@@ -52,7 +57,10 @@ class Mapper:
             one_way: the actions whose ways from there are open on one side alone.
             step: the time step.
         """
-        map_, place, weight, open_ = self._map, belief.place, belief.message.certainty, passable(doors)
+        map_, place, weight = self._map, belief.place, belief.message.certainty
+        self._counterparts.note(place, percept, step=step)
+        doors = self._counterparts.corrected(place, doors)
+        open_ = self._counterparts.beyond(doors)
         if percept.action is not None:
             for previous, next_, walked in zip(*(part.tolist() for part in belief.pairwise), strict=True):
                 if previous != next_ or not open_[percept.action]:  # else the move failed
@@ -63,3 +71,4 @@ class Mapper:
         map_.recall(self._growth.look(map_, Whereabouts(belief.places), open_, step=step))
         map_.learn(place, {name: told for name, told in percept.readings.items() if name != self._ways.name}, weight)
         self._ways.learn(place, doors, weight, one_way=one_way)
+        self._counterparts.share(place, step=step)

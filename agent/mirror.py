@@ -9,20 +9,15 @@ from numpy.typing import NDArray
 
 from ..inference import NOWHERE, Hypothesis, Place, label_probabilities, open_probability, together, whereabouts
 from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
+from .counterparts import Counterparts
+from .doors import Doors
+from .fading import Counts, fade_to, left_of, still_there, unheard
 
 SMALL = 64
 """Places of a map that is built anew, and so put into order, whenever one of them is gone."""
 
 WALKS = 3  # Walks along a way from which on more of them add nothing to its counts
 SURE = 0.9  # From this probability on a way is taken to be open, or shut
-
-Doors = tuple[bool | float | None, ...]
-"""For each action whether its way is believed open, or how much so; None where nothing is known of it."""
-
-
-def passable(doors: Doors) -> tuple[bool, ...]:
-    """For each action whether something may lie beyond: where nothing is known of its way, it may."""
-    return tuple(door is None or door > 0.5 for door in doors)
 
 
 class Journal(dict[int, Any]):
@@ -55,6 +50,7 @@ class Mirror:
         places: by number of a place of the hypothesis, the place of the map.
         missed: the places of the hypothesis of which the map was not taught what the last steps said.
         ways: what teaches the map which ways are open.
+        counterparts: the same rooms in other contexts; `places` are those of the one that the agent is in.
     """
 
     def __init__(self, map_: CognitiveMap, growth: Growth, actions: Sequence[int]) -> None:
@@ -65,6 +61,7 @@ class Mirror:
         self._stamp: Any = None  # of the hypothesis of which these are the records
         found = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Ways)]
         self.ways = found[0] if found else map_.unsensed_ways()
+        self.counterparts = Counterparts(map_, growth, self.ways)
 
     @property
     def in_order(self) -> tuple[int, ...]:
@@ -154,7 +151,8 @@ class Mirror:
             known = record.ways[way]
             heard = known.net or known.walks or h.neighbour(record, way) != NOWHERE
             doors[self._actions[way]] = _sure(open_probability(h, number, way)) if heard else None
-        return tuple(doors)
+        place = self.places.get(number)
+        return tuple(doors) if place is None else self.counterparts.corrected(place, tuple(doors))
 
     def one_way(self, h: Hypothesis, number: int) -> tuple[int, ...]:
         """The actions whose ways from a place are no way back: what is known of one side says nothing of the other.
@@ -207,22 +205,19 @@ class Mirror:
             Where the places of the map are now that it was built anew, those that are gone left out; None where only
             what is known of its places has changed.
         """
-        before, kept, asked = self.places, self._kept(), self._asked(h)
+        before, records, asked = self.places, self._records, self._asked(h)
         gone = [number for number in asked if number in before and self._elsewhere(h, number)]
         beside = self._take_away(gone, step=step) if gone else set[int]()
         changed = [k for k in sorted(beside.union(asked)) if h.places.get(k) is not None and self._differs(h, k)]
-        anew = (gone and not beside) or not self._fits(h, changed)
-        if anew:
-            changed = self._rebuild(h, step=step)
-            self._records = {number: h.places[number] for number in changed}
+        if (gone and not beside) or not self._fits(h, changed):
+            moved = self._rebuild(h, before, records, step=step)
+            self._records = {number: h.places[number] for number in h.places}
         else:
             self._change(h, changed, step=step)
+            same = still_there(h, records, before, among=asked) if gone else {}
+            moved = {before[old]: self.places[number] for old, number in same.items()} if gone else None
         self._stamp, self.missed = h.places.stamp, set()
-        if not (anew or gone):
-            return None
-        for number in before.keys() & changed:
-            self._give_back(kept, before[number], self.places[number])
-        return {place: self.places[number] for number, place in before.items() if number in self.places}
+        return moved
 
     def _asked(self, h: Hypothesis) -> Sequence[int]:
         """The places of which something else may be known than the map says, or which there are not any more."""
@@ -261,7 +256,8 @@ class Mirror:
         size, order = len(map_.motions), map_.visits.order.values
         since = {number for number, place in self.places.items() if place >= first}
         last = {self.places[number] for number in since} == {*order[len(order) - len(since) :].tolist()}
-        if not last or map_.visited[first:].sum() != len(since) or first <= max(SMALL, len(map_.places) // 2):
+        alone = last and map_.visited[first:].sum() == len(since) and not self._kept() and not map_.transitions.fading
+        if not alone or first <= max(SMALL, len(map_.places) // 2):
             return set()
         rows, _ = np.nonzero(map_.B_s.keys(slice(first * size)) >= first)
         beside = {*(rows // size).tolist()}
@@ -297,13 +293,17 @@ class Mirror:
                 return False
         return True
 
-    def _leads_there(self, h: Hypothesis, number: int, place: int | None) -> bool:
-        """Whether the ways of a place lead to where the pose says, and none that is shut to a place only imagined."""
+    def _leads_there(self, h: Hypothesis, number: int, place: int | None, *, told: bool = False) -> bool:
+        """Whether the ways of a place lead to where the pose says, and none that is shut to a place only imagined.
+
+        With `told` a way may lead elsewhere if that is where the map has it lead.
+        """
         record, map_ = h.places[number], self._map
         for way in h.awake:
             action, to = self._actions[way], record.ways[way].to
             if to != NOWHERE and h.scheme.displacements is not None:
-                if h.beyond(record, way) != (h.places[to].frame, h.places[to].position):
+                as_told = told and place is not None and map_.beyond(place, action) == self.places.get(to)
+                if not as_told and h.beyond(record, way) != (h.places[to].frame, h.places[to].position):
                     return False
             elif place is not None and to == NOWHERE and open_probability(h, number, way) < 0.5:
                 beyond = map_.beyond(place, action)
@@ -312,7 +312,7 @@ class Mirror:
         return True
 
     def _entered(self, imagined: int, place: int, *, before: float = inf) -> bool:
-        """Whether an open way leads to an imagined place from another one than `place`, with a number below `before`."""
+        """Whether an open way leads to an imagined place from another one than `place`, of those `before` a number."""
         map_ = self._map
         for action, neighbour in map_.pose.neighbours(imagined):
             back = np.array([map_.row(neighbour, map_.motions.inverse[action])])
@@ -321,22 +321,42 @@ class Mirror:
                 return True
         return False
 
-    def shut_out(self, h: Hypothesis) -> bool:
-        """Whether a way of the place where the agent is, now believed shut, was all that led to an imagined place."""
+    def outdated(self, h: Hypothesis) -> bool:
+        """Whether a way of the place where the agent is leads elsewhere than the map has it, or is now believed shut
+        and was all that led to an imagined place."""
         place = self.places.get(h.here)
-        return place is not None and not self._leads_there(h, h.here, place)
+        return place is not None and not self._leads_there(h, h.here, place, told=True)
 
     # -- building ------------------------------------------------------------------------------------------
 
-    def _rebuild(self, h: Hypothesis, *, step: int) -> Sequence[int]:
+    def _rebuild(
+        self, h: Hypothesis, before: Mapping[int, int], records: Mapping[int, Place], *, step: int
+    ) -> dict[int, int]:
+        same, kept = still_there(h, records, before), self._kept()
+        faded = self._faded(h, same, step=step) if self._map.transitions.fading else {}
         self._map.clear(step=step)
         self._map.pose.close(h.periods.get(0, ()))
         self.places = {}
         numbers = sorted(h.places)
         for number in numbers:
             self._add(h, number, step=step)
+        for old, number in same.items():
+            self._give_back(kept, before[old], self.places[number])
+        self.counterparts.rebuilt(self.places.values(), here=self.places[h.here], step=step)
         self._teach(h, numbers, step=step)
-        return numbers
+        for (number, action), counts in faded.items():
+            fade_to(self._map, self.places[number], action, counts)
+        for place in self.places.values():
+            self.counterparts.share(place, step=step)
+        return {before[old]: self.places[number] for old, number in same.items()}
+
+    def _faded(self, h: Hypothesis, same: Mapping[int, int], *, step: int) -> dict[tuple[int, int], Counts]:
+        """By number of a place and action, the counts of ways of which this step says nothing."""
+        ways = [(old, way) for old, way in unheard(h, self._records, same, step) if old not in self.missed]
+        return {
+            (same[old], self._actions[way]): left_of(self._map, self.places[old], self._actions[way])
+            for old, way in ways
+        }
 
     def _ahead(self, source: int, way: int) -> Position | None:
         """Where a way leads as the pose of the map has it."""
@@ -376,7 +396,7 @@ class Mirror:
             self._link(h, number)
         for number in numbers:
             place, doors = self.places[number], self.doors(h, number)
-            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), passable(doors), step=step))
+            map_.recall(self._growth.look(map_, Whereabouts({place: 1.0}), self.counterparts.beyond(doors), step=step))
             self._teach_place(h, number, doors)
         for number in numbers:
             self._walk(h, number)

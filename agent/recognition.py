@@ -25,9 +25,10 @@ from ..inference import (
 )
 from ..model import CognitiveMap, FactorGraph, Growth, Percept
 from .checks import check_recognition
+from .doors import Doors, passable
 from .hypotheses import MapHypothesis, compared
 from .knowing import records_of
-from .mirror import Doors, Mirror, passable
+from .mirror import Mirror
 from .question import with_question
 from .sensing import Sensing
 from .structure import OpenQuestion
@@ -91,8 +92,9 @@ class Recognition:
         assert self.followed is not None
         return self.followed
 
-    def take_in(self, percept: Percept) -> None:
-        """Weigh the hypotheses by what a step brought; the map stays as it is."""
+    def take_in(self, percept: Percept, *, step: int) -> None:
+        """Weigh the hypotheses by what a step brought; of the map no more than in which context it is seen changes."""
+        self.mirror.counterparts.turn(self.mirror.places, percept, step=step)
         sensed = self.sensing.sensed(percept, place=self.mirror.places.get)
         self.looked = percept.open
         self.tracker.step(sensed, self.sensing.labels())
@@ -163,7 +165,9 @@ class Recognition:
         sensed = percept.passable or (True,) * len(self._map.motions)
         if self.followed is None:
             return sensed
-        return tuple(is_open and door for is_open, door in zip(sensed, passable(self.doors), strict=True))
+        place = self.mirror.places.get(self._now.here)
+        doors = self.doors if place is None else self.mirror.counterparts.corrected(place, self.doors)
+        return tuple(is_open and door for is_open, door in zip(sensed, passable(doors), strict=True))
 
     def compared(self) -> tuple[MapHypothesis, ...]:
         """Every hypothesis, the most probable first, beside the one that is followed."""
@@ -201,7 +205,7 @@ class Recognition:
     def grown(self, place: int) -> bool:
         """The map was taught the last step, in this place; whether it is what the hypothesis says."""
         self.mirror.grown(self._now, place, self._now.touched)
-        return not self.mirror.shut_out(self._now)
+        return not self.mirror.outdated(self._now)
 
     def follow(self, *, step: int) -> dict[int, int] | None:
         """Have the map say what the most probable hypothesis says; see `Mirror.follow`."""

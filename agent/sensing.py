@@ -6,7 +6,7 @@ from math import log
 import numpy as np
 
 from ..inference import Sensed, WayScheme
-from ..model import GenerativeModel, Percept
+from ..model import Carried, GenerativeModel, Locks, Percept
 
 UNSURE = 0.25  # P(the move failed) at least, where the body is not sure of it
 
@@ -23,7 +23,8 @@ class Sensing:
     def __init__(self, model: GenerativeModel) -> None:
         self._model = model
         motions = model.motions
-        self.actions = tuple(action for action in range(len(motions)) if action != motions.stay)
+        takes = [action for action, what in enumerate(motions.takes) if what]  # these lead to the same room
+        self.actions = tuple(action for action in range(len(motions)) if action not in (motions.stay, *takes))
         self.ways = {action: way for way, action in enumerate(self.actions)}
         undone = [motions.inverse[action] for action in self.actions]
         inverse = tuple(self.ways[action] for action in undone) if all(action >= 0 for action in undone) else None
@@ -35,7 +36,9 @@ class Sensing:
             sensors=max(len(model.sights_sensed), 1),
         )
         sights = {sensor.name for sensor in model.sights_sensed}
-        self._others = [name for name in model.sensors if name not in sights and name != "open"]
+        self._locks = next((name for name, sensor in model.sensors.items() if isinstance(sensor, Locks)), None)
+        own = {"open", self._locks, *(name for name, sensor in model.sensors.items() if isinstance(sensor, Carried))}
+        self._others = [name for name in model.sensors if name not in sights | own]
 
     def labels(self) -> list[int]:
         """How many labels each sensor has shown."""
@@ -50,7 +53,8 @@ class Sensing:
         """
         readings, open_ = percept.readings, percept.ways(len(self._model.motions))
         sights = tuple(readings.get(sensor.name) for sensor in self._model.sights_sensed) or (None,)
-        ways = tuple(open_[action] for action in self.actions) or (None,)
+        locks = readings.get(self._locks or "") or (-1,) * len(open_)  # a locked way leads on, to who carries its key
+        ways = tuple(open_[action] if locks[action] < 0 else 1.0 for action in self.actions) or (None,)
         action = None if percept.action is None else self.ways.get(percept.action)
         return Sensed(
             sights,

@@ -4,7 +4,7 @@ from collections.abc import Hashable, Iterator, Mapping, Sequence
 from heapq import nlargest
 from math import exp, sqrt
 
-from ..inference import NOWHERE, Hypothesis, open_probability
+from ..inference import NOWHERE, Hypothesis, indistinguishable, open_probability
 
 LEAST = 1e-5
 """Hypotheses less probable than this are not worth a way; they are asked where nothing else is to be done."""
@@ -43,7 +43,7 @@ class OpenQuestion:
         doors_of: Hypothesis | None = None,
         tries: bool = False,
     ) -> None:
-        kept = [(exp(h.weight), h, Door()) for h in hypotheses if exp(h.weight) >= LEAST]
+        kept = [(weight, h, Door()) for weight, h in _different(hypotheses)]
         if doors_of is not None:
             doubtful, weight = nlargest(DOORS, _doubtful(doors_of), key=lambda found: found[0]), exp(doors_of.weight)
             kept += [(weight * p / (1.0 - p), doors_of, door) for p, door in doubtful]
@@ -91,6 +91,19 @@ class OpenQuestion:
         read = {k: bool(record.ways[k].open or record.ways[k].blocked) for k in found.awake}
         looked = [self._open(h, number, k) if looked_at else None for k, looked_at in read.items()]
         return tuple(record.label(sensor) for sensor in range(found.scheme.sensors)), tuple(looked)
+
+
+def _different(hypotheses: Sequence[Hypothesis]) -> Sequence[tuple[float, Hypothesis]]:
+    """The hypotheses that some walk tells apart, each with the weight of all that it stands for."""
+    kept = list[tuple[float, Hypothesis]]()
+    for h in hypotheses:
+        if (weight := exp(h.weight)) >= LEAST:
+            same = next((k for k, (_, other) in enumerate(kept) if indistinguishable(h, other)), None)
+            if same is None:
+                kept.append((weight, h))
+            else:
+                kept[same] = kept[same][0] + weight, kept[same][1]
+    return kept
 
 
 def _doubtful(h: Hypothesis) -> Iterator[tuple[float, Door]]:

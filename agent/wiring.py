@@ -87,7 +87,8 @@ class Wired:
         self.trace: list[StepRecord] = []
         self._recognising = settings.hypotheses is not None and not self.map.pose.settles
         self._recognition = Recognition(self.map, self.growth, settings.hypotheses)
-        self._mapper = Mapper(self.map, self.growth, self._recognition.mirror.ways, settings)
+        mirror = self._recognition.mirror
+        self._mapper = Mapper(self.map, self.growth, mirror.ways, mirror.counterparts, settings)
         self._cache = LocalCache(self.map, settings.look_ahead)
         self._plan: Plan | None = None
         self._torn: str | None = None

@@ -12,9 +12,12 @@ from minigrid.minigrid_env import MiniGridEnv
 from ..worlds import Motions, Observation, WorldError
 from ..worlds import minigrid as mg
 from .errand import errand_of
-from .roaming import DOORS, RoamingBody
+from .protocol import Percept
+from .roaming import COLOURS, DOORS, RoamingBody
 
-_STAY = DOORS
+_STAY = DOORS + len(COLOURS)
+_KEYS = tuple(f"{colour} key" for colour in COLOURS)
+_DOORS, _NONE = tuple(f"door {n}" for n in range(DOORS)), (None,) * DOORS
 VIEWS = ("symbolic", "rgb")
 
 
@@ -37,7 +40,8 @@ class RegisteredWorld(gym.Env[Observation, Any]):
     """An environment of MiniGrid by its id. Rooms are chunks of space bounded by doors and gaps, which are their ways.
 
     Nothing is known of how its rooms lie to each other: actions have no displacements, but a door leads back. The sight
-    is which of the rooms that the body has been in this is. `info` has `low_level_steps` and `reached`, whether the
+    is which of the rooms that the body has been in this is; it tells which key is carried, and which doors are locked,
+    and there is an action for each kind of key. `info` has `low_level_steps` and `reached`, whether the
     environment gave a reward.
 
     Args:
@@ -50,7 +54,12 @@ class RegisteredWorld(gym.Env[Observation, Any]):
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # pyright: ignore[reportIncompatibleVariableOverride]
-    motions = Motions((*(f"door {n}" for n in range(DOORS)), "stay"), (), tuple(range(DOORS + 1)))
+    motions = Motions(
+        (*_DOORS, *(f"take {key}" for key in _KEYS), "stay"),
+        (),
+        (*range(DOORS), *(-1 for _ in _KEYS), _STAY),
+        (*_NONE, *_KEYS, None),
+    )
 
     def __init__(self, name: str, *, view: str | None = None, errand: bool = False) -> None:
         view = view or "symbolic"
@@ -67,9 +76,9 @@ class RegisteredWorld(gym.Env[Observation, Any]):
             raise WorldError(f"{name!r} is no world of MiniGrid; a body of this library lives in no other")
         self.name, self.env = name, PixelView(env) if view == "rgb" else env
         self.body, self._errand = RoamingBody(self.env), errand
-        self.action_space = spaces.Discrete(DOORS + 1)
+        self.action_space = spaces.Discrete(_STAY + 1)
         text = spaces.Text(200)
-        self.observation_space = spaces.Dict({"sight": text, "open": spaces.MultiBinary(DOORS + 1)})
+        self.observation_space = spaces.Dict({"sight": text, "open": spaces.MultiBinary(_STAY + 1), "carried": text})
         self.rooms_seen = 0
 
     @property
@@ -96,15 +105,28 @@ class RegisteredWorld(gym.Env[Observation, Any]):
         """Go through a way."""
         before = self.body.reward
         if not self.body.ended:
-            self._percept = self.body.stay() if action == _STAY else self.body.perform(int(action))
+            self._percept = self._done(int(action))
         return self._observation(), self.body.reward - before, self.body.ended, False, self._info()
 
+    def _done(self, action: int) -> Percept:
+        if action == _STAY:
+            return self.body.stay()
+        return self.body.perform(action) if action < DOORS else self.body.take(action - DOORS)
+
     def _observation(self) -> Observation:
-        told, ways = self._percept, [self._percept.ways[way] for way in range(DOORS)]
+        body, told = self.body, self._percept
+        ways, keys, locks = [told.ways[way] for way in range(DOORS)], body.keys, body.locks
+        costs = [body.cost_of(colour) if colour in keys else None for colour in range(len(COLOURS))]
         seen: Observation = {
-            "sight": self.body.room,
-            "open": [*ways, True],
-            "costs": [*map(self._cost, range(DOORS)), None],
+            "sight": body.room,
+            "open": [*ways, *(cost is not None for cost in costs), True],
+            "carried": body.key,
+            "locks": [
+                *(_KEYS[locks[way]] if way in locks else None for way in range(DOORS)),
+                *(None for _ in _KEYS),
+                None,
+            ],
+            "costs": [*map(self._cost, range(DOORS)), *costs, None],
         }
         if told.moved:
             return {**seen, "moved": True}

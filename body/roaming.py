@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model import NOTHING as EMPTY_HANDED
 from ..worlds import minigrid as mg
 from .errand import Errand
 from .minigrid import Limbs, MiniGridBody
 from .outlook import Outlook
 from .protocol import Percept
-from .room_map import around
+from .room_map import around, shifted
 from .routes import distances, route
 from .vocabulary import BOX, vocabulary
 from .whereabouts import DROP, NOTHING, PICKUP, TOGGLE
@@ -20,16 +21,17 @@ from .whereabouts import DROP, NOTHING, PICKUP, TOGGLE
 DOORS = 32
 """Doors that a body tells apart; those that it sees later it does not tell of."""
 _TRIES = 400
-_COLOURS = ("red", "green", "blue", "purple", "yellow", "grey")
+_BEHIND = 3  # things in a row behind which a key is looked for
+COLOURS = ("red", "green", "blue", "purple", "yellow", "grey")
 
 
 class RoamingBody(MiniGridBody):
     """Goes through any world of MiniGrid and forgets nothing of it, which takes legs that do not slip.
 
     Ways are doors and gaps, numbered as they are seen first, the same from both sides: several may lie in one wall. It
-    looks at the whole of a room before it answers. What it is sent for comes first, as soon as it is seen; a key is
-    fetched once its locked door is known as well, and the door unlocked; what lies in the way of these is put aside.
-    Without an errand it sees to locked doors when it is told to `stay`.
+    looks at the whole of a room before it answers. What it is sent for comes first, as soon as it is seen; what lies in
+    the way of that, of a key or of a locked door is put aside. Keys it takes when it is told to: it says which lie in
+    the room, and which of its doors are locked.
 
     Attributes:
         held: what it carries, in words; None of nothing.
@@ -42,7 +44,6 @@ class RoamingBody(MiniGridBody):
         self._carried: int | None = None
         self._lifted: set[mg.Tile] = set()
         self._rooms: list[frozenset[mg.Tile]] = []
-        self._beyond_door: mg.Tile | None = None
         self._idle = False
         self._passed: tuple[set[mg.Tile], int] = set(), 0
 
@@ -52,7 +53,6 @@ class RoamingBody(MiniGridBody):
         self._doors.clear()
         self._lifted.clear()
         self._rooms.clear()
-        self._beyond_door = None
         super().begin(observation)
 
     def wake(self) -> Percept:
@@ -61,16 +61,41 @@ class RoamingBody(MiniGridBody):
         return self._attended(None, begin)
 
     def stay(self) -> Percept:
-        """Look round, and unlock what can be unlocked."""
+        """Look round, and see to what hides something."""
         self._idle, begin = True, self.steps
         told = self._attended(None, begin)
         self._idle = False
         return told
 
+    def take(self, colour: int) -> Percept:
+        """Fetch the key of a colour; what is carried instead is put down."""
+        begin = self.steps
+        while self._known.key != colour and self.steps < begin + _TRIES and not (self.ended or self._confused):
+            plan = self._to_key(colour)
+            if not plan:
+                break
+            self._handle(plan[0])
+        return self._attended("arrived" if self._known.key == colour else "blocked", begin)
+
+    def cost_of(self, colour: int) -> float | None:
+        """Low-level steps that taking a key is expected to take; None where there is no way to it."""
+        plan = self._to_key(colour)
+        return None if plan is None else float(len(plan))
+
     @property
-    def pending(self) -> bool:
-        """Whether there is a locked door whose key it can fetch."""
-        return self._to_doors() is not None
+    def keys(self) -> frozenset[int]:
+        """The colours of keys that lie in the room, in the open or behind other things."""
+        things, here = vocabulary().thing[self._known.tile], self._known.room(self._seed)
+        for _ in range(_BEHIND):
+            here |= things & (shifted(here, 0) | shifted(here, 1) | shifted(here, 2) | shifted(here, 3))
+        found = vocabulary().key[self._known.tile[here]]
+        return frozenset(int(colour) for colour in found if colour >= 0)
+
+    @property
+    def locks(self) -> dict[int, int]:
+        """The colour of the key that each locked door of the room takes."""
+        tiles = vocabulary().locked[self._known.tile]
+        return {self._doors[x, y]: int(tiles[y, x]) for x, y in self._locked() if (x, y) in self._doors}
 
     def perform(self, way: int, *, budget: int | None = None) -> Percept:
         """Go through a door by its number, in `budget` low-level steps at most, and look at all of the room beyond."""
@@ -102,13 +127,18 @@ class RoamingBody(MiniGridBody):
         return None if self._carried is None else _words(self._carried)
 
     @property
+    def key(self) -> str:
+        """The key that it carries, in words, or `nothing`."""
+        return EMPTY_HANDED if self._known.key < 0 else f"{COLOURS[self._known.key]} key"
+
+    @property
     def bars(self) -> tuple[str, ...]:
         """What it could not get past, in words: locked doors that it knows of, and of which no key was seen."""
         tiles, words = self._known.tile[self._known.tile >= 0], vocabulary()
         locked = sorted({int(colour) for colour in words.locked[tiles] if colour >= 0 and colour != self._known.key})
         keys = {int(colour) for colour in words.key[tiles]}
         return tuple(
-            f"a locked {_COLOURS[c]} door; its key was {'seen, and not reached' if c in keys else 'not seen'}"
+            f"a locked {COLOURS[c]} door; its key was {'seen, and not reached' if c in keys else 'not seen'}"
             for c in locked
         )
 
@@ -120,10 +150,15 @@ class RoamingBody(MiniGridBody):
     def _exits(self, now: Outlook, way: int) -> set[mg.Tile]:
         return {tile for tile in _all_exits(now) if self._doors.get(tile) == way}
 
+    def _locked(self) -> set[mg.Tile]:
+        """The locked doors of the room."""
+        room, doors = self._known.room(self._seed), vocabulary().locked[self._known.tile] >= 0
+        return {tile for heading in range(4) for tile in _tiles(shifted(room, heading) & doors)}
+
     def _percept(self, outcome: str | None, begin: int) -> Percept:
         told = super()._percept(outcome, begin)
         exits = _all_exits(self._outlook())
-        for tile in sorted(exits - self._doors.keys()):
+        for tile in sorted((exits | self._locked()) - self._doors.keys()):
             number = len(set(self._doors.values()))
             if number < DOORS:
                 self._doors[tile] = number
@@ -186,28 +221,17 @@ class RoamingBody(MiniGridBody):
         words = vocabulary()
         if self._carried is not None and words.key[self._carried] < 0:
             return self._put_down()
-        plan = self._to_errand() or self._through_unlocked()
+        plan = self._to_errand()
         if not plan and (self._idle or self._errand is not None):
-            plan = self._to_doors() or self._to_boxes()
+            plan = self._to_locked() or self._to_boxes()
         return self._to_hidden() if not plan and self._idle else plan
-
-    def _through_unlocked(self) -> list[int] | None:
-        """Through the door that it has just unlocked: nobody else knows that it is open."""
-        goal, self._beyond_door = self._beyond_door, None
-        if goal is None or goal == self.pose[:2]:
-            return None
-        masks, things = self._known.masks(), set(_tiles(vocabulary().thing[self._known.tile]))
-        within = {goal, *_tiles(masks.free | masks.shut)} - things
-        plan = route(self.pose, self._known, [goal], within=within, lift=things)
-        self._beyond_door = goal if plan else None
-        return self._lifting(plan)
 
     def _to_errand(self) -> list[int] | None:
         errand = self._errand
         if errand is None:
             return None
         wanted, key = errand.wanted, self._known.key
-        if errand.action == "toggle":  # doors that are locked take their keys: see `_to_doors`
+        if errand.action == "toggle":  # doors that are locked take their keys
             locked = vocabulary().locked[:-1]
             wanted = wanted & ((locked < 0) | (locked == key))
         plan = self._towards(wanted, upon=errand.upon)
@@ -217,23 +241,19 @@ class RoamingBody(MiniGridBody):
         full = self._carried is not None and errand.action == "pickup"
         return self._put_down() if full and TOGGLE not in plan else plan + final
 
-    def _to_doors(self) -> list[int] | None:
-        """To a locked door with its key, or to the key of one."""
+    def _to_key(self, colour: int) -> list[int] | None:
+        """To the nearest key of a colour, and take it up; what is carried, or lies in the way, is put aside first."""
+        key = vocabulary().key[:-1] == colour
+        way = self._towards(key, upon=False)
+        return self._clear(key) if way is None else self._lifting([*way, PICKUP])
+
+    def _to_locked(self) -> list[int] | None:
+        """Take up what lies in the way to a locked door whose key was seen."""
         words, tiles = vocabulary(), self._known.tile
-        for colour in sorted({int(c) for c in words.locked[tiles[tiles >= 0]] if c >= 0}):
-            door, key = words.locked[:-1] == colour, words.key[:-1] == colour
-            if self._known.key not in (-1, colour):
-                continue
-            way = self._towards(door, upon=False)
-            if way is None:
-                has_key = self._known.key == colour or self._towards(key, upon=False) is not None
-                plan = self._clear(door) if has_key else None
-            elif self._known.key == colour:
-                plan = [*way, TOGGLE]
-            else:
-                plan = self._towards(key, upon=False)
-                plan = self._clear(key) if plan is None else [*plan, PICKUP]
-            if plan is not None:
+        keys = {int(colour) for colour in words.key[tiles[tiles >= 0]]} | {self._known.key}
+        for colour in sorted({int(c) for c in words.locked[tiles[tiles >= 0]] if c >= 0} & keys):
+            door = words.locked[:-1] == colour
+            if self._towards(door, upon=False) is None and (plan := self._clear(door)) is not None:
                 return plan
         return None
 
@@ -323,8 +343,6 @@ class RoamingBody(MiniGridBody):
         x, y, heading = self.pose
         ahead = (x + mg.AHEAD[heading][0], y + mg.AHEAD[heading][1])
         thing = int(self._known.tile[ahead[1], ahead[0]])
-        if action == TOGGLE and vocabulary().locked[thing] >= 0:
-            self._beyond_door = (ahead[0] + mg.AHEAD[heading][0], ahead[1] + mg.AHEAD[heading][1])
         self._act(action)
         if action == PICKUP and self._known.free(ahead):
             self._carried, self._known.key = thing, int(vocabulary().key[thing])
@@ -343,4 +361,4 @@ def _tiles(mask: NDArray[np.bool_]) -> list[mg.Tile]:
 
 def _words(number: int) -> str:
     kind, colour, _ = vocabulary().codes[number].tolist()
-    return f"a {_COLOURS[colour]} {('key', 'ball', 'box')[kind - 5]}"
+    return f"a {COLOURS[colour]} {('key', 'ball', 'box')[kind - 5]}"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..agent import Agent, Settings
-from ..model import CogmapError
+from ..model import Carried, CogmapError
 from .records import Record, mean
 from .running import Moment, run
 from .session import many
@@ -68,13 +68,13 @@ def run_id(
     begin = world.reset(seed=seed)
 
     def watch(moment: Moment) -> bool:
-        return world.body.ended or (not errand and _nothing_left(agent) and not world.body.pending)
+        return world.body.ended or (not errand and _nothing_left(agent))
 
     steps = 0
     if not world.body.ended:
         steps = run(world, agent, steps=max_steps or MOVES, begin=begin, watch=watch).observations
     low, reached = world.low_level_steps, world.body.reward > 0.0
-    return IdRun(seed, reached, steps, low, int(agent.map.visited.sum()), _nothing_left(agent), world.body.bars)
+    return IdRun(seed, reached, steps, low, _rooms(agent), _nothing_left(agent), world.body.bars)
 
 
 def run_ids(name: str, *, runs: int, seed: int = 0, **options: Any) -> list[IdRun]:
@@ -95,6 +95,14 @@ def ids_result(name: str, runs: Sequence[IdRun], *, errand: bool, view: str | No
     }
     head = {"world": name, "agent": "cogmap", "view": view or "symbolic", "errand": errand}
     return {**head, "runs": [run.to_dict() for run in runs], "summary": summary}
+
+
+def _rooms(agent: Agent) -> int:
+    """Rooms that were visited, whatever was carried then."""
+    places = agent.map.visited_places
+    for sensor in agent.map.sensors.values():
+        places = sensor.rooms(places) if isinstance(sensor, Carried) else places
+    return len(np.unique(places))
 
 
 def _nothing_left(agent: Agent) -> bool:

@@ -17,6 +17,7 @@ from .hypotheses import (
     TrackerOptions,
     Way,
     WayScheme,
+    indistinguishable,
     label_probabilities,
     open_probability,
     rates_of,
@@ -36,7 +37,7 @@ __all__ = [
     "APPROXIMATIONS", "ENGINES", "NOWHERE", "Belief", "CompiledGraph", "FilterOptions", "Fit", "FreeEnergy",
     "Hypothesis", "ImpossibleEvidence", "Loopy", "LoopyReport", "Message", "MostProbable", "Place", "Posterior",
     "RateOf", "Sampling", "SamplingReport", "Sensed", "Share", "Stream", "Tracker", "TrackerOptions", "Way",
-    "WayScheme", "advance", "begin", "compile_graph", "fit", "free_energy", "free_energy_of", "infer", "is_likelihood",
-    "k_most_probable", "label_probabilities", "log_product", "marginal_map", "most_probable", "open_probability",
-    "rates_of", "readings_of", "together", "tracker_knowing", "ways_misread", "whereabouts",
+    "WayScheme", "advance", "begin", "compile_graph", "fit", "free_energy", "free_energy_of", "indistinguishable",
+    "infer", "is_likelihood", "k_most_probable", "label_probabilities", "log_product", "marginal_map", "most_probable",
+    "open_probability", "rates_of", "readings_of", "together", "tracker_knowing", "ways_misread", "whereabouts",
 ]  # fmt: skip

@@ -75,8 +75,16 @@ class Column:
                 self._changes.append(Change(self, where, old, value))
             self._array[where] = value
 
-    def put(self, where: int | tuple[int, int], value: float) -> None:
-        """Write one cell without telling the log."""
+    def write(self, row: int, values: NDArray[Any]) -> None:
+        """Write a whole row; one entry of the log, if it is news."""
+        old = self._array[row].copy()
+        if (old != values).any():
+            if self._changes is not None:  # first, as above
+                self._changes.append(Change(self, row, old, values))
+            self._array[row] = values
+
+    def put(self, where: int | tuple[int, int], value: float | NDArray[Any]) -> None:
+        """Write one cell, or a row, without telling the log."""
         self._array[where] = value
 
     def savepoint(self) -> int:

@@ -117,8 +117,23 @@ class SparseDirichlet:
                 self._changes.append(Change(self, (row, slot), old, new))
             self.put((row, slot), new)
 
-    def put(self, where: tuple[int, int] | None, value: tuple[int, float, float] | Floats | float) -> None:
-        """Write one slot: its outcome, prior and evidence; or all evidence, or the factor that it is multiplied by."""
+    def write(self, rows: Ints, keys: Ints, prior: Floats, evidence: Floats) -> None:
+        """Have these rows say this, `[n, slots]` each; one entry of the log, however many they are."""
+        new = keys, prior, evidence
+        if self._changes is not None:  # first, so that what is half done can be undone
+            self._changes.append(Change(self, rows, (self._keys[rows], self._prior[rows], self._evidence[rows]), new))
+        self.put(rows, new)
+
+    def put(self, where: tuple[int, int] | Ints | None, value: tuple[Any, Any, Any] | Floats | float) -> None:
+        """Write one slot, or rows: outcome, prior and evidence; or all evidence, or the factor it is multiplied by."""
+        if isinstance(where, np.ndarray):
+            assert isinstance(value, tuple)
+            stores = zip((self._keys, self._prior, self._evidence), value, (EMPTY, 0.0, 0.0), strict=True)
+            for array, values, unused in stores:
+                width = values.shape[1]  # there may be more slots by now
+                array[where, :width], array[where, width:] = values, unused
+            self._add_up(where)
+            return
         if isinstance(value, tuple):
             row, slot = where or (0, 0)
             self._keys[row, slot], self._prior[row, slot], self._evidence[row, slot] = value
@@ -154,8 +169,10 @@ class SparseDirichlet:
         self._alpha, self._total = np.zeros_like(self._prior), np.zeros(len(self._keys))
         self._add_up()
 
-    def touched(self, where: tuple[int, int] | None) -> Iterable[int] | None:
-        """The place whose row it is."""
+    def touched(self, where: tuple[int, int] | Ints | None) -> Iterable[int] | None:
+        """The place whose row it is, or the places of rows."""
+        if isinstance(where, np.ndarray):
+            return set((where // self.rows_each).tolist())
         return None if where is None else (where[0] // self.rows_each,)
 
     def _resize(self, rows: int, slots: int) -> None:
@@ -234,6 +251,10 @@ class SparseDirichlet:
     def counts(self, row: int) -> dict[int, float]:
         """Evidence of `row` by outcome, prior left out."""
         return dict(zip(self._keys[row].tolist(), self._evidence[row].tolist(), strict=True))
+
+    def slots(self, rows: Ints) -> tuple[Ints, Floats, Floats]:
+        """`[n, slots]` outcomes, priors and evidence of rows, as `write` takes them."""
+        return self._keys[rows], self._prior[rows], self._evidence[rows]
 
     def fade(self, keep: float) -> None:
         """Multiply all evidence by `keep`, in [0, 1]: what was learned long ago fades."""

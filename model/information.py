@@ -8,6 +8,8 @@ from numpy.typing import ArrayLike
 from .arrays import Floats
 from .errors import CogmapError
 
+FEW = 16  # rows up to which each is looked up
+
 
 def dirichlet_information(alpha: ArrayLike, steps: int, *, multiplicity: ArrayLike | None = None) -> Floats:
     """Mutual information between theta ~ Dir(alpha) and n draws from Cat(theta), for n = 0..steps.
@@ -75,10 +77,13 @@ class KnownInformation:
         if outcomes == 1 and multiplicity is None:  # one outcome teaches nothing
             return np.zeros((*alpha.shape[:-1], steps + 1))
         many = np.ones_like(alpha) if multiplicity is None else multiplicity
-        packed = np.concatenate([alpha, many], axis=-1).tobytes()
-        width = 16 * outcomes
-        table = [self._row(packed[i : i + width], steps) for i in range(0, len(packed), width)]
-        return np.array(table).reshape(*alpha.shape[:-1], steps + 1)
+        rows = np.concatenate([alpha, many], axis=-1).reshape(-1, 2 * outcomes)
+        first = np.ones(len(rows), dtype=np.bool_)
+        if len(rows) > FEW:  # of a long list most are as the one before
+            first[1:] = (rows[1:] != rows[:-1]).any(axis=1)
+        packed, width = rows[first].tobytes(), 16 * outcomes
+        table = np.array([self._row(packed[i : i + width], steps) for i in range(0, len(packed), width)])
+        return table.reshape(-1, steps + 1)[first.cumsum() - 1].reshape(*alpha.shape[:-1], steps + 1)
 
     def __deepcopy__(self, memo: object) -> KnownInformation:
         return KnownInformation(self.most)  # what it knows is no part of what a model believes

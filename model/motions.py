@@ -43,6 +43,8 @@ class Motions:
     displacements: tuple[Position, ...] = ()  # one vector of `n` integers an action; exactly one is zero (`stay`)
     # without displacements, the index of the action that undoes each, -1 where nobody knows; () of all
     reverse: tuple[int, ...] = ()
+    # for each action what the agent carries after it, None where that stays as it is; () of all (see `Carried`)
+    takes: tuple[str | None, ...] = ()
     placed: bool = field(init=False)  # whether displacements were given
     # for each action the index of the action that undoes it, -1 where nobody knows
     inverse: tuple[int, ...] = field(init=False)
@@ -55,6 +57,9 @@ class Motions:
             raise CogmapError(f"motions: names are {self.names}; give each action a word")
         if len(set(self.names)) < len(self.names):
             raise CogmapError(f"motions: names repeat in {self.names}; make them unique")
+        words = all(isinstance(what, str | None) for what in self.takes)  # pyright: ignore[reportUnnecessaryIsInstance]
+        if self.takes and not (words and len(self.takes) == len(self.names)):
+            raise CogmapError(f"motions: takes is {self.takes}; give each action a word for what it takes, or None")
         object.__setattr__(self, "placed", bool(self.displacements))
         if self.placed:
             self._place()
@@ -127,7 +132,7 @@ class Motions:
                 f"motions: {type(spec).__name__} is no set of motions in whole numbers; give world.motions or "
                 "{name: displacement}"
             ) from error
-        return cls(names, vectors, reverse)
+        return cls(names, vectors, reverse, tuple(getattr(spec, "takes", ())))
 
     def __len__(self) -> int:
         return len(self.names)

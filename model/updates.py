@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
+
 from .changes import Change, Entry
 from .dirichlet import EMPTY, SparseDirichlet
 
@@ -23,13 +25,23 @@ def updates(entries: Iterable[Entry]) -> list[ParameterUpdate]:
     found: list[ParameterUpdate] = []
     for entry in entries:
         if isinstance(entry, Change) and isinstance(entry.store, SparseDirichlet) and entry.where is not None:
+            if isinstance(entry.where, np.ndarray):
+                found += _of_rows(entry, entry.store)
+                continue
             (row, _), (before, _, old), (after, _, new) = entry.where, entry.old, entry.new
             if new != old:
-                place, action = divmod(row, entry.store.rows_each)
-                outcome = before if after == EMPTY else after
-                found.append(
-                    ParameterUpdate(
-                        entry.store.name, outcome, place, action if entry.store.rows_each > 1 else None, new - old
-                    )
-                )
+                found.append(_update(entry.store, before if after == EMPTY else after, row, new - old))
     return found
+
+
+def _of_rows(entry: Change, table: SparseDirichlet) -> Iterable[ParameterUpdate]:
+    (before, _, old), (after, _, new) = entry.old, entry.new
+    at = np.nonzero(old != new)
+    outcomes, amounts = np.where(new[at] == 0.0, before[at], after[at]), new[at] - old[at]
+    for row, outcome, amount in zip(entry.where[at[0]].tolist(), outcomes.tolist(), amounts.tolist(), strict=True):
+        yield _update(table, outcome, row, amount)
+
+
+def _update(table: SparseDirichlet, outcome: int, row: int, amount: float) -> ParameterUpdate:
+    place, action = divmod(row, table.rows_each)
+    return ParameterUpdate(table.name, outcome, place, action if table.rows_each > 1 else None, amount)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+from math import exp
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +11,12 @@ import numpy as np
 import pytest
 from cogmap.agent import Agent, Settings
 from cogmap.agent.structure import OpenQuestion
-from cogmap.experiments import Trail, Verdict
+from cogmap.experiments import Trail, Verdict, kidnap
 from cogmap.experiments.running import Moment
-from cogmap.inference import TrackerOptions, infer
+from cogmap.inference import TrackerOptions, indistinguishable, infer
 from cogmap.inference.hypotheses import Sensed, Tracker, WayScheme
 from cogmap.model import CogmapError, NoPose, Sight
-from cogmap.worlds import MazeEnv, NoisyWorld, UnseenWays, comb, hall, load_world, place_of, ring, torus
+from cogmap.worlds import MAZES, MazeEnv, NoisyWorld, UnseenWays, comb, hall, load_world, place_of, ring, torus
 
 
 def walked(world: Any, agent: Agent, steps: int, *, seed: int = 0, moves: dict[int, Any] | None = None) -> Trail:
@@ -297,3 +299,38 @@ def test_what_is_hardly_probable_counts_for_more_where_trying_is_all_that_is_lef
     asked, tried = (OpenQuestion(tracker.hypotheses, {0: 0, 1: 1}, tries=tries) for tries in (False, True))
     assert len(asked.weights) > 1
     assert tried.weights == pytest.approx([weight**0.5 for weight in asked.weights])
+
+
+def test_hypotheses_that_no_walk_tells_apart_are_asked_as_one() -> None:
+    tracker = Tracker(WayScheme(2, (1, 0), ((-1, 0), (1, 0))))
+    west, both, east = (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)
+    for label, ways, action in ((0, both, None), (1, east, 0), (0, both, 1), (2, both, 1), (0, both, 1), (1, west, 1)):
+        tracker.step(Sensed((label,), ways, action), [3])
+    kept = [h for h in tracker.hypotheses if exp(h.weight) > 1e-5]
+    asked = OpenQuestion(kept, {0: 0, 1: 1})
+    assert any(indistinguishable(*pair) for pair in combinations(kept, 2))  # where on the chart is no question
+    assert 1 < len(asked.weights) < len(kept)
+    assert sum(asked.weights) == pytest.approx(sum(exp(h.weight) for h in kept))
+
+
+def test_a_doubt_that_is_small_is_looked_into_where_nothing_else_is_left_to_do() -> None:
+    assert kidnap(MAZES["t_maze_alias"], seed=5).map_intact  # it was moved while it was open how long the stem is
+
+
+def test_what_has_faded_stays_faded_when_the_map_is_built_anew() -> None:
+    world: Any = load_world("tolman")
+    world.reset(options={"start": (6, 2)})
+    agent, names = Agent(world.motions, settings=Settings(forgetting=0.2), seed=0), world.motions.names
+    taken: dict[str, str] = {}
+    for walk in ("lluuurruuudrrrdddddl", "uuuuuu", "uuuuuu"):  # it is put back as if by a step to the left
+        observation = {**world.unwrapped.displace((6, 2)), **taken}
+        for action in (index for letter in walk for index, name in enumerate(names) if name[0] == letter):
+            agent.perceive(observation)
+            taken = {"taken": names[action]}
+            observation = {**world.step(action)[0], **taken}
+    transitions, now, long_ago = agent.map.transitions, agent.map.place_at((-4, 0)), agent.map.place_at((0, -1))
+    assert now is not None
+    assert long_ago is not None
+    counts = [transitions.table.concentrations(row) for row in transitions.rows(np.array([now, long_ago])).tolist()]
+    assert max(counts[names.index("up")].values()) > 1.0
+    assert max(counts[len(names) + names.index("left")].values()) < 0.1

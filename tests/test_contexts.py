@@ -14,8 +14,8 @@ from cogmap.baselines import CueOptimum
 from cogmap.experiments.studies import run_study
 from cogmap.experiments.studies.cue import Cue
 from cogmap.inference import infer
-from cogmap.model import CogmapError, Contexts, Motions, NoPose, Sight, Ways
-from cogmap.worlds import CueMaze, WorldError, best_cue_action
+from cogmap.model import Carried, CogmapError, Contexts, Motions, NoPose, Sight, Ways
+from cogmap.worlds import GRID, CueMaze, WorldError, best_cue_action
 from command_line import cogmap
 
 EXACT = Settings(hypotheses=None)
@@ -140,6 +140,75 @@ def test_a_key_is_fetched_because_a_plan_foresees_the_open_door(settings: Settin
     assert agent.contexts["key"] > 0.99
 
 
+FETCH = Motions(KEYS.names, (), (1, 0, -1, 3), (None, None, "key", None))
+
+
+class Locked(Keys):
+    """The same, of which nothing is known beforehand; it tells of the lock."""
+
+    def sense(self) -> dict[str, Any]:
+        told = super().sense()
+        locks = {"right": "key"} if self.at == 2 else {}
+        return {"sight": told["sight"], "open": told["open"], "carried": told["context"], "locks": locks}
+
+
+def fetched(agent: Agent, world: Locked, steps: int) -> list[str]:
+    names = list[str]()
+    for _ in range(steps):
+        names.append(FETCH.names[agent.step(world.sense())])
+        world.act(names[-1])
+    return names
+
+
+def test_a_key_that_was_found_is_fetched_for_a_door_that_was_seen() -> None:
+    world, agent = Locked(), Agent(FETCH, seed=0)
+    assert fetched(agent, world, 3) == ["left", "left", "take"]
+    plan = [FETCH.names[action] for action in agent.plan.policy]
+    assert plan[:4] == ["take", "right", "right", "right"]  # through rooms in which it never carried a key
+    assert fetched(agent, world, 3) == ["right", "right", "right"]
+    assert world.at == 3
+    assert agent.contexts["key"] > 0.99
+    fetched(agent, world, 1)
+    assert {len(set(agent.map.sensors["carried"].peers.values[place])) for place in agent.map.visited_places} == {2}
+    posterior = infer(agent.graph)
+    assert posterior.marginal(f"carried{agent.steps - 1}")[1] == pytest.approx(agent.contexts["key"], abs=1e-9)
+
+
+def test_what_is_learned_with_a_key_is_known_without() -> None:
+    world, agent = Locked(), Agent(FETCH, seed=0)
+    fetched(agent, world, 4)
+    world.key = False  # it was lost, and nobody said so
+    fetched(agent, world, 1)
+    assert agent.contexts["nothing"] > 0.99
+    assert agent.belief.certainty > 0.9
+    assert agent.map.visited[agent.belief.place]
+    here = agent.belief.place
+    left, right = (agent.map.beyond(here, FETCH.names.index(way)) for way in ("left", "right"))
+    assert left is not None
+    assert right is not None
+    assert agent.map.visited[[left, right]].all()
+
+
+def test_an_agent_that_carries_is_saved_and_loaded(tmp_path: Path) -> None:
+    world, agent = Locked(), Agent(FETCH, seed=0)
+    fetched(agent, world, 4)
+    agent.save(tmp_path / "key.npz")
+    again, other = Agent.load(tmp_path / "key.npz"), Locked()
+    other.at, other.key = world.at, world.key
+    assert fetched(again, other, 4) == fetched(agent, world, 4)
+    assert again.contexts == agent.contexts
+
+
+def test_a_key_for_no_door_is_left_alone() -> None:
+    class Unlocked(Locked):
+        def sense(self) -> dict[str, Any]:
+            return {**super().sense(), "locks": {}}
+
+    world, agent = Unlocked(), Agent(FETCH, seed=0)
+    world.at = 0
+    assert "take" not in fetched(agent, world, 6)
+
+
 def test_the_optimum_asks_once_and_then_goes() -> None:
     assert best_cue_action("centre", 0, right=0.8, moves=2) == "cue"
     assert best_cue_action("cue", -1, right=0.8, moves=1) == "right"
@@ -168,6 +237,12 @@ def test_the_study_compares_with_the_optimum(tmp_path: Path) -> None:
         (lambda: cued().step({**CENTRE, "context": {"left": -1.0}}), "not all of them 0"),
         (lambda: Agent(KEYS, pose=NoPose(), map=nx.DiGraph([(0, 1)], contexts=["one"])), "a list of two or more"),
         (lambda: Agent(KEYS, pose=NoPose(), map=odd(only="sesame")), "speaks of context 'sesame'"),
+        (lambda: Motions(KEYS.names, (), (), ("key",)), "give each action a word for what it takes"),
+        (lambda: Agent(FETCH, sensors=[Carried(["nothing", "lamp"])], seed=0), "carried is 'key'"),
+        (lambda: Agent(GRID, sensors=[Carried(["nothing", "key"])], seed=0), "without displacements"),
+        (lambda: Agent(FETCH, seed=0).step({**Locked().sense(), "locks": {"up": "key"}}), "give each action one of"),
+        (lambda: Agent(FETCH, seed=0).step({**Locked().sense(), "locks": ["lamp"] * 4}), "give each action one of"),
+        (lambda: Agent(FETCH, seed=0).step({**Locked().sense(), "carried": "lamp"}), "the contexts are"),
         (lambda: Agent(KEYS, pose=NoPose(), map=odd(then="sesame")), "speaks of context 'sesame'"),
     ],
 )

@@ -59,6 +59,21 @@ def test_what_hides_the_way_is_taken_up(name: str, seed: int) -> None:
     assert run.low_level_steps < 60
 
 
+def test_the_agent_plans_with_keys_and_the_body_only_moves() -> None:
+    world = RegisteredWorld("MiniGrid-DoorKey-8x8-v0", errand=True)
+    agent, (seen, _) = Agent(world.motions, seed=2), world.reset(seed=2)
+    for _ in range(3):
+        seen, *_ = world.step(len(world.motions.names) - 1)
+    assert (seen["carried"], world.body.held) == ("nothing", None)  # which knows of the key, and of the door
+    assert seen["locks"]
+    action = agent.step(seen)
+    assert [world.motions.names[a] for a in agent.plan.policy][:2] == ["take yellow key", "door 0"]
+    seen, *_ = world.step(action)
+    assert (seen["carried"], seen["outcome"], world.body.held) == ("yellow key", "arrived", "a yellow key")
+    assert agent.step(seen) == 0
+    assert agent.contexts["yellow key"] > 0.99
+
+
 def test_every_room_is_entered_the_locked_one_too() -> None:
     world = RegisteredWorld("MiniGrid-KeyCorridorS6R3-v0")
     inside, act = set[tuple[int, int]](), world.env.step

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import GRID
 
-writes = st.lists(st.tuples(st.integers(0, 7), st.integers(0, 9), st.integers(0, 4), st.floats(0.1, 2.0)), max_size=12)
+writes = st.lists(st.tuples(st.integers(0, 8), st.integers(0, 9), st.integers(0, 4), st.floats(0.1, 2.0)), max_size=12)
 
 
 def write(map_: CognitiveMap, ops: list[tuple[int, int, int, float]]) -> None:
@@ -37,6 +37,8 @@ def write(map_: CognitiveMap, ops: list[tuple[int, int, int, float]]) -> None:
             map_.transitions.learn(place, action, place if beyond is None else beyond, min(weight, 1.0))
         elif op == 6:
             map_.transitions.forget(0.5)
+        elif op == 8:
+            map_.transitions.blank(place)
         elif map_.position(place) is None and map_.place_at((9, place)) is None:
             map_.bind(place, (9, place), step=0)
 
@@ -107,6 +109,7 @@ CHANGES: dict[str, tuple[Callable[[CognitiveMap], object], set[int] | None, set[
     "a transition": (lambda map_: map_.B_s.add(map_.row(2, 1), 2, 1.0), {2}, {2}),
     "a visit": (lambda map_: map_.mark_visited(4), {4}, {4}),
     "a door": (lambda map_: map_.transitions.sensed.set((1, 0), 2), {1}, set()),
+    "doors": (lambda map_: map_.sensors["open"].learn(2, [False] * 4 + [True], 1.0), {2}, {2}),
     "fading": (lambda map_: map_.B_s.fade(0.5), None, None),
     "a place": (lambda map_: map_.new_place(None, step=0), {6}, {6}),
 }

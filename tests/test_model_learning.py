@@ -247,6 +247,18 @@ def test_updates_are_read_from_the_log() -> None:
     assert updates(map_.changes.since(cursor)[0] or ()) == []
 
 
+def test_updates_of_many_rows_are_told_one_by_one() -> None:
+    map_ = pair()
+    cursor = len(map_.changes)
+    map_.sensors["open"].learn(A, [False, True, False, True, True], 1.0)
+    entries, cursor = map_.changes.since(cursor)
+    learned = {(told.outcome, told.action): told.amount for told in updates(entries or ()) if told.place == A}
+    assert {key: amount for key, amount in learned.items() if key[0] == A} == {(A, UP): 7.0, (A, LEFT): 7.0}
+    map_.transitions.blank(A)
+    lost = {(told.outcome, told.action): -told.amount for told in updates(map_.changes.since(cursor)[0] or ())}
+    assert lost == learned
+
+
 doors = st.tuples(*[st.booleans()] * 4, st.just(True))
 place = st.integers(0, 3)
 weights = st.floats(0.0, 1.0)

@@ -83,12 +83,15 @@ def test_an_agent_is_not_lost_among_actions_that_are_never_open(actions: int) ->
     assert len(agent.map.places) == len(agent.map.visited_places) == 16
     assert agent.belief.certainty > 0.9
     assert agent._recognition.tracker.awake == (0, 1, 2, 3)
+    assert not any(record.revised for record in agent.trace)  # filter and hypotheses agree at every step
+    known = [agent.map.transitions.blocked(np.array([place])) for place in agent.map.places]
+    assert min(p[0, 5:].min() for p in known) > 0.9
 
 
 def test_an_action_is_thought_of_once_it_was_open() -> None:
     agent = walked(12, 30, hatch=True)
     tracker = agent._recognition.tracker
-    assert tracker.awake == (0, 1, 2, 3, 4)  # ways are without `stay`
+    assert tracker.awake == (0, 1, 2, 3, 4, 5)  # it, and what undoes it; ways are without `stay`
     assert open_probability(tracker.best, tracker.best.here, 4) > 0.5
     loaded = Agent.from_state(*agent.state())._recognition.tracker
     assert (loaded.awake, loaded.best.awake) == (tracker.awake, tracker.awake)

@@ -13,6 +13,7 @@ class Motions:
     # one vector of `n` integers an action; empty where none are declared
     displacements: tuple[tuple[int, ...], ...] = ()
     reverse: tuple[int, ...] = ()  # the index of the action that undoes each; empty where nobody says so
+    takes: tuple[str | None, ...] = ()  # for each action what is carried after it, None where that stays as it is
     local: bool = False  # whether ways belong to the place, so that each observation lists those that are there
 
 

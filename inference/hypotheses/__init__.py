@@ -6,6 +6,7 @@ from .knowing import tracker_knowing
 from .options import Change, Checkpoint, TrackerOptions
 from .reading import (
     RateOf,
+    indistinguishable,
     label_probabilities,
     open_probability,
     rates_of,
@@ -21,6 +22,6 @@ from .tracker import Tracker
 
 __all__ = [
     "NOWHERE", "Change", "Checkpoint", "Hypothesis", "Lead", "Place", "RateOf", "Sensed", "Share", "Tracker",
-    "TrackerOptions", "Way", "WayScheme", "label_probabilities", "open_probability", "rates_of", "readings_of",
-    "together", "tracker_knowing", "ways_misread", "where_to", "whereabouts",
+    "TrackerOptions", "Way", "WayScheme", "indistinguishable", "label_probabilities", "open_probability", "rates_of",
+    "readings_of", "together", "tracker_knowing", "ways_misread", "where_to", "whereabouts",
 ]  # fmt: skip

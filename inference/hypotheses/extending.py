@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from math import log
 
 from ...model import SHOWN
@@ -56,7 +57,13 @@ def extend(h: Hypothesis, branch: Alternative, sensed: Sensed, time: int) -> Non
 def _place_new(h: Hypothesis, number: int, *, frame: int, position: tuple[int, ...]) -> None:
     scheme = h.scheme
     sights: tuple[SightCounts, ...] = ({},) * scheme.sensors
-    h.put(number, Place(sights, (Way(),) * scheme.count, frame, position, (), frozenset(), Share()))
+    h.put(number, Place(sights, _unread(scheme.count, h.awake), frame, position, (), frozenset(), Share()))
+
+
+@lru_cache(maxsize=64)
+def _unread(count: int, awake: tuple[int, ...]) -> tuple[Way, ...]:
+    """The ways of a place never seen, as one that all such places share: those that nobody thinks of are shut."""
+    return tuple(Way() if way in awake else SHUT for way in range(count))
 
 
 def _count_how(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
@@ -231,7 +238,7 @@ def _look(h: Hypothesis, number: int, sensed: Sensed, time: int) -> None:
         for sensor, (counts, reading) in enumerate(zip(place.sights, sensed.sights, strict=True))
     )
     rebuilt = bool(place.recent) and was_rebuilt(h, number, place, sensed)
-    ways = list(place.ways) if len(h.awake) == h.scheme.count else [way if way.net else SHUT for way in place.ways]
+    ways = list(place.ways)
     for index in h.awake:
         reading, way = sensed.ways[index], place.ways[index]
         if reading is not None:

@@ -72,9 +72,9 @@ def _off_the_chart(h: Hypothesis, one: Place, other: Place) -> float:
 def _leads_nowhere(united: Union) -> bool:
     """Whether a way that was never looked at would lead back to where it began: that it is shut says the same."""
     return any(
-        way.to != NOWHERE and not (way.open or way.blocked) and united.find(way.to) == number
+        (way := place.ways[index]).to != NOWHERE and not (way.open or way.blocked) and united.find(way.to) == number
         for number, place in united.classes.items()
-        for way in place.ways
+        for index in united.h.awake
     )
 
 
@@ -138,7 +138,8 @@ def _neighbours(united: Union) -> set[int]:
     touched = united.members()
     for number in list(touched):
         place = united.h.places[number]
-        touched |= {way.to for way in place.ways if way.to != NOWHERE} | {source for source, _ in place.into}
+        touched |= {to for way in united.h.awake if (to := place.ways[way].to) != NOWHERE}
+        touched |= {source for source, _ in place.into}
     return touched
 
 
@@ -146,10 +147,12 @@ def _resolved(united: Union, number: int) -> Place:
     """The record of a place with every number of a united place replaced by the first one's."""
     place, find = united.view(number), united.find
     most = united.h.chances.most
-    ways = [
-        way._replace(net=min(max(way.net, -most), most), to=find(way.to) if way.to != NOWHERE else NOWHERE)
-        for way in place.ways
-    ]
+    ways = list(place.ways)
+    for index in united.h.awake:
+        way = ways[index]
+        ways[index] = way._replace(
+            net=min(max(way.net, -most), most), to=find(way.to) if way.to != NOWHERE else NOWHERE
+        )
     into = frozenset((find(source), index) for source, index in place.into)
     inverse = united.h.scheme.inverse
     if inverse is not None:

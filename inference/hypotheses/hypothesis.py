@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from operator import add
 
-from ...model import Periods, reduced
+from ...model import FEW_WAYS, Periods, reduced
 from .chances import Chances
 from .layered import Layered
 from .rates import BESIDE, OPEN, SIGHT_MISREAD, STAYED, UNDONE, WAY_MISREAD, RateCounts
@@ -22,9 +22,6 @@ SHARES = (
 
 SQUARES = 0.6
 """Rate of squares that close from which on a way is taken to lead where it closes one."""
-
-FEW = 8
-"""Ways up to which all are thought of."""
 
 OWN = 2.0
 """Looks at one way that count as much as all looks at any way."""
@@ -208,14 +205,14 @@ class Hypothesis:
                 self.at[place.frame, place.position] = number
                 self.lay(place, 1)
             self._count(place, 1.0)
-            self.digest += digest(place)
+            self.digest += digest(place, self.awake)
         else:
             self._recount(before.share, place.share)
             if before.position is not place.position or before.frame != place.frame:
                 self.lay(before, -1)
                 self.lay(place, 1)
             if before.ways is not place.ways or before.sights is not place.sights:
-                self.digest += digest(place) - digest(before)
+                self.digest += digest(place, self.awake) - digest(before, self.awake)
         if before is None or before.sights is not place.sights:
             for sensor in range(self.scheme.sensors):
                 was, now = -1 if before is None else before.label(sensor), place.label(sensor)
@@ -233,7 +230,7 @@ class Hypothesis:
         """Take a place away; what it shares stays counted."""
         place = self.places[number]
         self.lay(place, -1)
-        self.digest -= digest(place)
+        self.digest -= digest(place, self.awake)
         for sensor in range(self.scheme.sensors):
             self._relabel(sensor, number, place.label(sensor), -1)
         if place.position and self.at.get((place.frame, place.position)) == number:
@@ -288,12 +285,18 @@ def awake_ways(scheme: WayScheme, known: tuple[int, ...] = (), sensed: Sensed | 
         known: those that were thought of so far.
         sensed: what is sensed now.
     """
-    if scheme.count <= FEW:
+    if scheme.count <= FEW_WAYS:
         return tuple(range(scheme.count))
     if sensed is None:
         return known
     now = {way for way, reading in enumerate(sensed.ways) if reading != 0.0 or way == sensed.action}
-    return known if now <= set(known) else tuple(sorted(now.union(known)))
+    return known if now <= set(known) else with_reverse(scheme, now.union(known))
+
+
+def with_reverse(scheme: WayScheme, ways: Collection[int]) -> tuple[int, ...]:
+    """These ways and those that undo them: who knows where one leads knows where the other does."""
+    back = () if scheme.inverse is None else (scheme.inverse[way] for way in ways)
+    return tuple(sorted({*ways, *back}))
 
 
 def settle_alike(hypotheses: Sequence[Hypothesis]) -> None:
@@ -303,6 +306,7 @@ def settle_alike(hypotheses: Sequence[Hypothesis]) -> None:
     Layered.settle_alike([h.shown for h in hypotheses])
 
 
-def digest(place: Place) -> int:
-    """What a place adds to the digest of its map."""
-    return hash((place.label(), tuple([way.to == NOWHERE for way in place.ways])))
+def digest(place: Place, awake: Iterable[int]) -> int:
+    """What a place adds to the digest of its map; no way that nobody thinks of leads anywhere."""
+    ways = place.ways
+    return hash((place.label(), *[way for way in awake if ways[way].to != NOWHERE]))

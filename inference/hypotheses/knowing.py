@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from .chances import Chances
 from .extending import shared
-from .hypothesis import Hypothesis, awake_ways
+from .hypothesis import Hypothesis, awake_ways, with_reverse
 from .options import TrackerOptions
 from .records import NOWHERE, Place
 from .scheme import WayScheme
@@ -31,8 +31,13 @@ def tracker_knowing(
         options: how many hypotheses are kept.
     """
     h = Hypothesis(scheme)
-    open_ = {way for place in places.values() for way, known in enumerate(place.ways) if known.net > 0.0 or known.walks}
-    h.awake = tuple(sorted({*awake_ways(scheme), *open_}))
+    open_ = {
+        way
+        for place in places.values()
+        for way, known in enumerate(place.ways)
+        if known.net > 0.0 or known.walks or known.to != NOWHERE
+    }
+    h.awake = with_reverse(scheme, {*awake_ways(scheme), *open_})
     h.chances = Chances(h.counts, [n + 1 for n in labels], size=max(len(places), 1))
     for number, place in places.items():
         h.put(number, place)

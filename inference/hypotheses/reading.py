@@ -60,6 +60,26 @@ def together(one: Hypothesis, other: Hypothesis) -> bool:
     return one.here == other.here or _before(one) == _before(other)
 
 
+def indistinguishable(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether no walk tells two hypotheses apart: at most they differ in where they lay places that are linked alike.
+
+    What nobody has written to since the two were one is the same in both, and so are the ways that lead from there.
+    """
+    if (one.here, one.size, one.digest) != (other.here, other.size, other.digest) or one.crowd or other.crowd:
+        return False
+    kept = one.places.kept(other.places)
+    return kept is not None and all(_shows(one, number) == _shows(other, number) for number in kept.changed)
+
+
+def _shows(h: Hypothesis, number: int) -> object:
+    """What a place looks like, and where each way leads, and whether it is open; None where there is no such place."""
+    place = h.places.get(number)
+    if place is None:
+        return None
+    ways = [(h.neighbour(place, way), place.ways[way].net > 0.0) for way in h.awake]
+    return place.label(), ways
+
+
 def _before(h: Hypothesis) -> int | None:
     """When the agent was last where it is now, before now."""
     recent = h.places[h.here].recent

@@ -127,7 +127,7 @@ def _reached(h: Hypothesis, start: int, seen: set[int], without: set[tuple[int, 
 def _linked(h: Hypothesis, number: int) -> Iterator[int]:
     """The places of the same chart that links join to one."""
     place = h.places[number]
-    for other in (*(way.to for way in place.ways), *(source for source, _ in sorted(place.into))):
+    for other in (*(place.ways[way].to for way in h.awake), *(source for source, _ in sorted(place.into))):
         if other != NOWHERE and h.places[other].frame == place.frame:
             yield other
 
@@ -221,7 +221,8 @@ def _across(h: Hypothesis, part: Part) -> Iterator[Link]:
     found: dict[tuple[int, int], Link] = {}
     for number in sorted(part.numbers):
         place = h.places[number]
-        links = [Link(number, index, way.to) for index, way in enumerate(place.ways) if way.to != NOWHERE and way.walks]
+        ways = ((index, place.ways[index]) for index in h.awake)
+        links = [Link(number, index, way.to) for index, way in ways if way.to != NOWHERE and way.walks]
         links += [Link(source, index, number) for source, index in sorted(place.into)]
         for link in links:
             inside = (link.number in part.numbers) + (link.to in part.numbers)

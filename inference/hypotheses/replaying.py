@@ -95,7 +95,7 @@ def doubted(h: Hypothesis, number: int, history: History) -> set[int]:
         return set()
     found, queue = {number}, [number]
     for one in queue:
-        for way in h.places[one].ways:
+        for way in (h.places[one].ways[index] for index in h.awake):
             if way.to != NOWHERE and way.net >= 0.0 and way.to not in found and _seldom(h, way.to, history):
                 found.add(way.to)
                 queue.append(way.to)
@@ -237,8 +237,8 @@ def _prior_cost(h: Hypothesis, numbers: Collection[int]) -> float:
     cost = seating(h, removed=numbers)
     for number in numbers:
         place = h.places[number]
-        for index, way in enumerate(place.ways):
-            if way.net:
+        for index in h.awake:
+            if place.ways[index].net:
                 p = probability(way_odds(h, number, place, index))
                 half = 0.5 if h.neighbour(place, index) != NOWHERE else 1.0
                 open_ = before_reading(h, number, place, index, h.places.__getitem__, int)
@@ -283,8 +283,8 @@ def _misfit(h: Hypothesis, number: int) -> bool:
     place = h.places[number]
     if all(h.places[source].ways[by].net < 0.0 for source, by in place.into):
         return number != 0  # the walk began somewhere
-    for index, way in enumerate(place.ways):
-        if way.to == NOWHERE:
+    for index in h.awake:
+        if (way := place.ways[index]).to == NOWHERE:
             continue
         if h.scheme.displacements is not None and h.beside(place, index) != way.to:
             return True

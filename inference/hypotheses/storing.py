@@ -295,7 +295,8 @@ def _finish(hypotheses: Sequence[Hypothesis], alive: int, time: int) -> None:
     if not hypotheses:
         return
     base = hypotheses[0].places.layers[0]
-    shared = {number: digest(place) for number, place in base.items()}
+    ways = range(hypotheses[0].scheme.count)
+    shared = {number: digest(place, ways) for number, place in base.items()}
     total, both = sum(shared.values()), Hypothesis(hypotheses[0].scheme)
     for place in base.values():
         both.lay(place, 1)
@@ -306,7 +307,7 @@ def _finish(hypotheses: Sequence[Hypothesis], alive: int, time: int) -> None:
         if k < alive:
             _check_index(h)
         h.digest = total + sum(
-            (0 if place is None else digest(place)) - shared.get(number, 0) for number, place in own.items()
+            (0 if place is None else digest(place, ways)) - shared.get(number, 0) for number, place in own.items()
         )
         h.laid = both.laid.copy()
         for number, place in own.items():

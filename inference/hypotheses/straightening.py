@@ -19,8 +19,8 @@ def straightened(h: Hypothesis, number: int, *, floor: float) -> Hypothesis | No
     place, inverse = h.places[number], h.scheme.inverse
     if inverse is None:
         return None
-    for index, way in enumerate(place.ways):
-        if way.walks != 1:
+    for index in h.awake:
+        if (way := place.ways[index]).walks != 1:
             continue
         sources = sorted(source for source, by in place.into if inverse[by] == index and source != way.to)
         if not sources:

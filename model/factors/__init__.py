@@ -2,6 +2,7 @@
 
 from .base import Context, ModelFactor, Successors, Support, Table, parts_of
 from .bearings import Bearings
+from .carried import NOTHING, Carried, Locks
 from .contexts import Contexts
 from .displacement import Displacement
 from .features import Features
@@ -9,7 +10,7 @@ from .pose import POSES, Ahead, Lattice, NoPose, Plane, Pose
 from .sensor import Sensor
 from .sight import SHOWN, Sight
 from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
-from .ways import Ways
+from .ways import FEW_WAYS, Ways
 
 SENSORS: dict[str, type[Sensor]] = {
     "sight": Sight,
@@ -17,11 +18,13 @@ SENSORS: dict[str, type[Sensor]] = {
     "ways": Ways,
     "bearings": Bearings,
     "contexts": Contexts,
+    "carried": Carried,
+    "locks": Locks,
 }
 """Kinds of sensors by name."""
 
 __all__ = [
-    "BLOCKED", "ELSEWHERE", "OPEN", "POSES", "SENSORS", "SHOWN", "UNKNOWN", "Ahead", "Bearings", "Context", "Contexts",
-    "Displacement", "Features", "Lattice", "ModelFactor", "NoPose", "Plane", "Pose", "Sensor", "Sight", "Successors",
-    "Support", "Table", "Transition", "Ways", "parts_of",
+    "BLOCKED", "ELSEWHERE", "FEW_WAYS", "NOTHING", "OPEN", "POSES", "SENSORS", "SHOWN", "UNKNOWN", "Ahead", "Bearings",
+    "Carried", "Context", "Contexts", "Displacement", "Features", "Lattice", "Locks", "ModelFactor", "NoPose", "Plane",
+    "Pose", "Sensor", "Sight", "Successors", "Support", "Table", "Transition", "Ways", "parts_of",
 ]  # fmt: skip

@@ -13,6 +13,7 @@ from ..labels import plain
 from ..motions import Motions
 from ..unseen import UNSEEN
 
+_PLAIN = bool | int | float | None
 WayReading = bool | float | None  # whether a way is open: true, false, P(open), or None where it was not looked at
 
 
@@ -117,7 +118,7 @@ def _listed(value: Any) -> tuple[list[Any], tuple[int, ...]]:
         value = [None if out else each for each, out in zip(masked.data.tolist(), hidden, strict=True)]
     if isinstance(value, list | tuple):
         entries = list(cast("list[Any] | tuple[Any, ...]", value))
-        if not any(isinstance(entry, list | tuple) or np.ndim(entry) for entry in entries):
+        if not any(not isinstance(entry, _PLAIN) and np.ndim(entry) for entry in entries):
             return entries, (len(entries),)
     try:
         array = np.asarray(value)

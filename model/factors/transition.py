@@ -34,6 +34,7 @@ class Transition(ModelFactor):
         table: B_s.
         sensed: `[S, K]` what was last sensed of each door.
         walked: `[S, K]` whether each way was ever walked.
+        fading: whether evidence fades.
         carried_out: `[K]` P(action carried out | an action given), as whoever learns it has it; None where actions
             hardly ever go astray, as long as nobody says otherwise.
     """
@@ -48,6 +49,7 @@ class Transition(ModelFactor):
         self.table = SparseDirichlet(name="B_s", slots=2, rows_each=size, changes=log)
         self.sensed = Column("sensed", np.int8, width=size, changes=log)
         self.walked = Column("walked", np.bool_, width=size, changes=log)
+        self.fading = False
 
     @property
     def stores(self) -> tuple[Store, ...]:
@@ -55,25 +57,34 @@ class Transition(ModelFactor):
 
     def grow(self, places: int) -> None:
         """A new place may turn out to be blocked in each direction, or lead somewhere."""
-        old, size, stay = len(self.sensed), len(self.motions), self.motions.stay
+        old, size = len(self.sensed), len(self.motions)
         self.table.resize(places * size)
         self.sensed.resize(places)
         self.walked.resize(places)
         if places > old:
-            keys = np.full((places - old, size, 2), ELSEWHERE)
-            keys[:, :, 0], keys[:, stay, 1] = np.arange(old, places)[:, None], EMPTY
-            prior = np.full(keys.shape, self.context.priors.transition)
-            prior[:, stay, 1] = 0.0
-            self.table.begin(slice(old * size, places * size), keys.reshape(-1, 2), prior.reshape(-1, 2))
+            self.table.begin(slice(old * size, places * size), *self._blank(np.arange(old, places)))
 
     def blank(self, place: int) -> None:
         """Its ways may be blocked or lead somewhere, for all that is known."""
-        prior = self.context.priors.transition
-        for action in range(len(self.motions)):
-            stays = action == self.motions.stay
-            self.table.clear(self.row(place, action), (place,) if stays else (place, ELSEWHERE), prior)
-            self.sensed.set((place, action), UNKNOWN)
-            self.walked.set((place, action), False)
+        rows, (keys, prior) = self.rows(np.array([place])), self._blank(np.array([place]))
+        slots = self.table.slots(rows)
+        if slots[2].any():  # first what was learned of places that will not be named any more
+            self.table.write(rows, *slots[:2], np.zeros(slots[2].shape))
+        wide = np.full(slots[0].shape, EMPTY), np.zeros(slots[0].shape)
+        wide[0][:, :2], wide[1][:, :2] = keys, prior
+        if not (np.array_equal(wide[0], slots[0]) and np.array_equal(wide[1], slots[1])):
+            self.table.write(rows, *wide, np.zeros(slots[2].shape))
+        self.sensed.write(place, np.full(len(self.motions), UNKNOWN, dtype=np.int8))
+        self.walked.write(place, np.zeros(len(self.motions), dtype=np.bool_))
+
+    def _blank(self, places: Ints) -> tuple[Ints, Floats]:
+        """`[n K, 2]` outcomes and priors of places of which nothing is known."""
+        size, stay = len(self.motions), self.motions.stay
+        keys = np.full((len(places), size, 2), ELSEWHERE)
+        keys[:, :, 0], keys[:, stay, 1] = places[:, None], EMPTY
+        prior = np.full(keys.shape, self.context.priors.transition)
+        prior[:, stay, 1] = 0.0
+        return keys.reshape(-1, 2), prior.reshape(-1, 2)
 
     def restore(self, state: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], places: int) -> None:
         """Take over the arrays. Raises CogmapError: an action leads nowhere, not even back."""
@@ -111,12 +122,19 @@ class Transition(ModelFactor):
         keys = np.where(others.any(axis=1), keys[np.arange(len(keys)), found], ELSEWHERE)
         return keys.reshape(len(places), -1)
 
-    def blocked(self, places: Ints) -> Floats:
-        """`[n, K]` P(blocked | s, a) = B_s[s, s, a], within the floor of the doors; zero for `stay`."""
+    def blocked(self, places: Ints, actions: Ints | None = None) -> Floats:
+        """`[n, K]` P(blocked | s, a) = B_s[s, s, a], within the floor of the doors; zero for `stay`.
+
+        Args:
+            places: `[n]` s.
+            actions: those that are asked for, instead of all.
+        """
         size, floor = len(self.motions), self.context.priors.door_floor
-        p = self.table.probability(places.repeat(size), self.rows(places)).reshape(-1, size)
+        asked = np.arange(size) if actions is None else actions
+        rows = (places[:, None] * size + asked).ravel()
+        p = self.table.probability(places.repeat(len(asked)), rows).reshape(len(places), len(asked))
         np.minimum(np.maximum(p, floor, out=p), 1.0 - floor, out=p)
-        p[:, self.motions.stay] = 0.0
+        p[:, asked == self.motions.stay] = 0.0
         return p
 
     def predict(self, places: Ints, action: int, percept: Percept, *, stays: float) -> Successors:
@@ -238,6 +256,17 @@ class Transition(ModelFactor):
             self.raise_to(beyond, beyond, inverse, -weight * reverse)
             self.add(place, beyond, inverse, weight * reverse)
 
+    def shut_all(self, place: int, actions: Ints, weight: float) -> None:
+        """Ways beyond which no place is known were found blocked: `shut` of many at once."""
+        rows, least = place * len(self.motions) + actions, -weight * self.rates.impossible[0]
+        keys, prior, before = self.table.slots(rows)
+        most = np.maximum(before, self.rates.ceiling)
+        evidence = np.where(keys == place, np.minimum(np.maximum(before, least), most), before)
+        self.table.write(rows, keys, prior, evidence)
+        sensed = self.sensed.values[place].copy()
+        sensed[actions] = BLOCKED
+        self.sensed.write(place, sensed)
+
     def raise_to(self, next_: int, previous: int, action: int, level: float) -> None:
         """Have counts of `level` at least."""
         have = self.table.evidence(self.row(previous, action), next_)
@@ -253,6 +282,7 @@ class Transition(ModelFactor):
 
     def forget(self, keep: float) -> None:
         """Let all evidence fade by the factor `keep`."""
+        self.fading = True
         self.table.fade(keep)
 
 

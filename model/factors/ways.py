@@ -14,6 +14,9 @@ from .transition import BLOCKED, ELSEWHERE, OPEN, UNKNOWN, Transition
 
 Looks = Sequence[WayReading]  # A reading an action
 
+FEW_WAYS = 8
+"""Ways up to which all of a list are thought of."""
+
 
 class Ways(Sensor):
     """A sensor of whether the way of each action is open: `open` in observations.
@@ -55,19 +58,28 @@ class Ways(Sensor):
     def likelihood(self, places: Ints, reading: Looks) -> Floats:
         return np.multiply.reduce(self._each(places, reading), axis=1)
 
+    def _told(self, reading: Looks) -> tuple[Ints, Floats]:
+        """The actions whose ways tell places apart, and the reading of each: those that were looked at.
+
+        Of a long list only those that were ever read as anything but blocked: the others are the same everywhere, and
+        each that was weighed would have a place never entered be half as probable.
+        """
+        read = np.array(reading, dtype=np.float64)  # NaN of None
+        told = ~np.isnan(read)
+        told[self._motions.stay] = False
+        if len(read) > FEW_WAYS + 1:
+            known = self.context.visits.order.values
+            told &= (read > 0.0) | (self._transitions.sensed.values[known] != BLOCKED).any(axis=0)
+        actions = np.flatnonzero(told)
+        return actions, read[actions]
+
     def _each(self, places: Ints, reading: Looks) -> Floats:
-        """`[n, K]` of each door by itself: r P(open) + (1 - r) P(blocked); one where it was not looked at."""
-        p = self._transitions.blocked(places)
+        """`[n, k]` of each door that tells something: r P(open) + (1 - r) P(blocked)."""
+        actions, read = self._told(reading)
+        p = self._transitions.blocked(places, actions)
         if self._learned:
-            p[~self.context.visits.visited.values[places]] = self._blocked()
-        np.subtract(1.0, p, out=p, where=np.array([way == 1 for way in reading]))
-        for action, way in enumerate(reading):
-            if way is None:
-                p[:, action] = 1.0
-            elif 0.0 < way < 1.0:
-                p[:, action] = way * (1.0 - p[:, action]) + (1.0 - way) * p[:, action]
-        p[:, self._motions.stay] = 1.0
-        return p
+            p[~self.context.visits.visited.values[places]] = self._blocked()[actions]
+        return read * (1.0 - p) + (1.0 - read) * p
 
     def _blocked(self) -> Floats:
         """`[K]` how often each action was found blocked in a new place."""
@@ -77,11 +89,11 @@ class Ways(Sensor):
 
     def log_predictive(self, reading: Looks) -> float:
         """A way is as likely open as not, or as often as it was."""
-        if self._learned:
-            p = self._blocked()
-            looked = [(p[a] if way < 0.5 else 1.0 - p[a]) for a, way in enumerate(reading) if way is not None]
-            return float(np.log(looked).sum() - np.log(1.0 - p[self._motions.stay]))
-        return (sum(way is not None for way in reading) - 1) * log(0.5)
+        actions, read = self._told(reading)
+        if not self._learned:
+            return len(actions) * log(0.5)
+        p = self._blocked()[actions]
+        return float(np.log(np.where(read < 0.5, p, 1.0 - p)).sum())
 
     def learn(self, place: int, reading: Looks, weight: float, *, one_way: Collection[int] = ()) -> None:
         """What is sensed of the doors of `place`; those of the actions `one_way` say nothing of their other side.
@@ -90,21 +102,31 @@ class Ways(Sensor):
         and what has faded comes back. The other side of a door learns of it when it changes. A look that is not sure
         leaves the counts of one look, shared by what is then believed.
         """
-        for action, way in enumerate(reading):
-            if action == self._motions.stay or way is None:
-                continue
-            if 0.0 < way < 1.0:
+        shut, others = self._news(place, reading, weight)
+        if len(shut):
+            self._transitions.shut_all(place, shut, weight)
+        for action in others.tolist():
+            way, before = reading[action], int(self._transitions.sensed.values[place, action])
+            if way is not None and 0.0 < way < 1.0:
                 self._weigh(place, action, weight, way)
-                continue
-            is_open = way == 1
-            before = int(self._transitions.sensed.values[place, action])
-            if before == (OPEN if is_open else BLOCKED) and self._settled(place, action, weight, is_open=is_open):
-                continue
-            if is_open:
+            elif way:
                 self._open(place, action, weight, before, both=action not in one_way)
             else:
                 changed = before != BLOCKED and action not in one_way
                 self._transitions.shut(place, action, weight, changed=changed)
+
+    def _news(self, place: int, reading: Looks, weight: float) -> tuple[Ints, Ints]:
+        """The actions whose counts do not say yet what is read: those shut that lead to no known place, and others."""
+        ways, read = self._transitions, np.array(reading, dtype=np.float64)
+        read[self._motions.stay] = np.nan
+        keys, _, counts = ways.table.slots(ways.rows(np.array([place])))
+        here, sensed = keys == place, ways.sensed.values[place]
+        stays, leads = np.where(here, counts, 0.0).sum(axis=1), np.where(here, 0.0, counts).sum(axis=1)
+        shut = (sensed == BLOCKED) & (stays >= -weight * self._rates.impossible[0]) & (leads == 0.0)
+        open_ = (sensed == OPEN) & (stays == 0.0) & (leads >= weight * self._rates.imagined[0])
+        news = ~np.isnan(read) & ~np.where(read == 0.0, shut, (read == 1.0) & open_)
+        alone = news & (read == 0.0) & ~((keys >= 0) & ~here).any(axis=1)
+        return np.flatnonzero(alone), np.flatnonzero(news & ~alone)
 
     def _weigh(self, place: int, action: int, weight: float, way: float) -> None:
         """Share the counts of one look between open and blocked, as is believed after a reading P(open) = `way`."""
@@ -119,18 +141,11 @@ class Ways(Sensor):
     def recall(self, place: int) -> None:
         """Teach a new place what its neighbours' doors have shown of it already: those that are blocked."""
         ways = self._transitions
-        for action, inverse in enumerate(self._motions.inverse):
-            neighbour = ways.beyond(place, action)
+        keys = ways.table.keys(ways.rows(np.array([place])))
+        for action in np.flatnonzero(((keys >= 0) & (keys != place)).any(axis=1)).tolist():
+            inverse, neighbour = self._motions.inverse[action], ways.beyond(place, action)
             if inverse >= 0 and neighbour is not None and ways.sensed.values[neighbour, inverse] == BLOCKED:
                 ways.add(place, place, action, -self._rates.impossible[1])
-
-    def _settled(self, place: int, action: int, weight: float, *, is_open: bool) -> bool:
-        """Whether the counts of a door say what is seen already, and nothing else."""
-        counts = self._transitions.table.counts(self._transitions.row(place, action))
-        blocked = counts.pop(place, 0.0)
-        if is_open:
-            return blocked == 0.0 and sum(counts.values()) >= weight * self._rates.imagined[0]
-        return blocked >= -weight * self._rates.impossible[0] and not any(counts.values())
 
     def _open(self, place: int, action: int, weight: float, before: int, *, both: bool) -> None:
         ways = self._transitions

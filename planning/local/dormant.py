@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model import EMPTY, Motions, dirichlet_information
+from ...model import EMPTY, Motions
 from .cache import WayRows
 from .transitions import Floats, Ints
 from .view import MapView
@@ -47,8 +47,7 @@ def leave_out_dormant(map_: MapView, places: Ints, rows: WayRows, entered: NDArr
     if not len(at):
         return
     place = ahead[at]
-    _, alpha, _ = map_.B_s.concentration(map_.rows_of(places[place[:1]])[action[:1]])
-    taught = dirichlet_information(alpha, rows.ways.shape[1] - 1)[0]
+    taught = map_.transitions.looks(int(places[place[0]]), int(action[0]), rows.ways.shape[1] - 1)
     rows.successors[place, action], rows.probability[place, action] = EMPTY, 0.0
     rows.successors[place, action, 0], rows.probability[place, action, 0] = places[place], 1.0
     rows.blocked[place, action], rows.likely[place, action] = 1.0, -1

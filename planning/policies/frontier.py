@@ -7,8 +7,8 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from ...model import Floats, Ints
-from ..local import Frontier, Surroundings
+from ...model import Carried, Floats, Ints
+from ..local import Frontier, MapView, Surroundings
 
 STEPS, METRES = "steps", "metres"
 BY = (STEPS, METRES)
@@ -128,19 +128,16 @@ def _by_steps(around: Surroundings, reach: float) -> _Search:
 
 def _ahead(around: Surroundings, search: _Search, level: list[int], steps: int) -> list[int]:
     """The places that were entered `steps` steps away, one from those of `level`; the others are ends of the search."""
-    rows = (around.cache.likely(np.array(level)) if steps > 1 else around.sensed()).tolist()
+    rows = around.cache.likely(np.array(level)) if steps > 1 else around.sensed()
     visited, ahead = around.map.visited, list[int]()
-    for place, row in zip(level, rows, strict=True):
-        for action, after in _cheapest_first(row, search.prices if steps == 1 else None):
-            if after >= 0 and after not in search.depth:
-                search.depth[after], search.before[after] = steps, (place, action)
-                (ahead if visited[after] else search.ends).append(after)
+    at, actions = np.nonzero(rows >= 0)
+    if steps == 1 and search.prices is not None:  # of two ways to one place the one that begins cheaper is taken
+        actions = actions[np.argsort(search.prices[actions], kind="stable")]
+    for row, action, after in zip(at.tolist(), actions.tolist(), rows[at, actions].tolist(), strict=True):
+        if after not in search.depth:
+            search.depth[after], search.before[after] = steps, (level[row], action)
+            (ahead if visited[after] else search.ends).append(after)
     return ahead
-
-
-def _cheapest_first(row: list[int], prices: Floats | None) -> list[tuple[int, int]]:
-    """Actions and where they lead; of two ways to one place the one that begins cheaper is taken."""
-    return list(enumerate(row)) if prices is None else [(a, row[a]) for a in np.argsort(prices, kind="stable").tolist()]
 
 
 def _by_length(around: Surroundings, reach: float) -> _Search:
@@ -186,16 +183,37 @@ def _back(around: Surroundings, ends: Ints, search: _Search) -> Floats:
 
 
 def _back_on_map(around: Surroundings, ends: Ints, search: _Search) -> Floats:
-    """The same without positions: along the ways of the map; none in a large one."""
-    map_ = around.map
+    """The same without positions: along the ways of the map; none in a large one.
+
+    Of a way that another one undoes both are open; where nobody knows what undoes any, all are. What nothing undoes
+    among ways that are undone, such as to take a key, leads one way.
+    """
+    map_, motions = around.map, around.map.motions
     size, entered = len(map_.places), map_.visited_places
     if len(entered) > LARGEST:
         return np.zeros(len(ends))
     ahead = around.cache.likely(entered)
     row, action = np.nonzero(ahead >= 0)
-    graph = csr_array((np.ones(len(row)), (entered[row], ahead[row, action])), shape=(size, size))
+    undone = np.array(motions.inverse) >= 0
+    both = undone[action] | (undone.sum() == 1)  # what stays undoes itself
+    here, there = entered[row], ahead[row, action]
+    to, source = np.append(here, there[both]), np.append(there, here[both])  # backwards: from each place to the ends
+    graph = csr_array((np.ones(len(to)), (source, to)), shape=(size, size))
     graph.data[:] = 1.0  # of two ways between two places
-    far = dijkstra(graph, directed=False, unweighted=True, indices=ends)
-    others = np.flatnonzero(~map_.visited)
-    far = np.where(np.isfinite(far[:, others]), far[:, others], 0.0)
+    others, rooms = _one_a_room(map_, search)
+    twins = np.flatnonzero(np.isin(rooms, rooms[ends]) & ~map_.visited)
+    every = dijkstra(graph, unweighted=True, indices=twins)[:, others]
+    far = np.array([every[rooms[twins] == rooms[end]].min(axis=0) for end in ends.tolist()])
+    far = np.where(np.isfinite(far), far, 0.0)
     return np.asarray(far.sum(axis=1) / np.maximum((far > 0.0).sum(axis=1), 1))
+
+
+def _one_a_room(map_: MapView, search: _Search) -> tuple[Ints, Ints]:
+    """The places never entered, of those of one room the nearest; and `[S]` the room of each place."""
+    rooms = np.arange(len(map_.places))
+    for sensor in map_.sensors.values():
+        rooms = sensor.rooms(rooms) if isinstance(sensor, Carried) else rooms
+    others = np.flatnonzero(~map_.visited)
+    far = np.array([search.depth.get(place, np.inf) for place in others.tolist()])
+    order = np.lexsort((others, far))
+    return np.sort(others[order[np.unique(rooms[others][order], return_index=True)[1]]]), rooms

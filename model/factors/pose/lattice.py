@@ -241,11 +241,19 @@ class Lattice(Pose):
             return
         if self.periods and len(position) == len(self.origin) and reduced(position, self.periods) != position:
             return
-        for action in range(len(self.motions)):
-            there = self.positions.find(self.moved(position, action))
+        for action, beside in enumerate(self._around(position)):
+            there = self.positions.find(beside)
             if there is not None:
                 self.beyond.values[index, action] = there
                 self.beyond.values[there, self.motions.inverse[action]] = index
+
+    def _around(self, position: Position) -> list[Position]:
+        """`moved` of each action."""
+        if self.periods:
+            return [self.moved(position, action) for action in range(len(self.motions))]
+        size = len(self.origin)
+        fragment, moved = position[size:], np.array(self.motions.displacements) + position[:size]
+        return [(*there, *fragment) for there in moved.tolist()]
 
     def known(self, place: int) -> bool:
         """Whether it has a position."""
