@@ -5,7 +5,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from math import exp, log
 
-from .branches import leads, slips_into_staying
+from .branches import leads, once_read, slips_into_staying
 from .evidence import before_reading, log_likelihood, probability, way_odds
 from .hypothesis import Hypothesis
 from .rates import MOVED
@@ -211,9 +211,10 @@ def _predicted(
         place, stays = h.places[number], stays_anyway
         for way in h.awake:
             q = p * (1.0 - chances.astray if way == action else each[way])
-            opened = probability(way_odds(h, number, place, way)) * (1.0 - fails)
+            opened = probability(way_odds(h, number, place, way))
             lead = leads(h, number, place, way)
-            stays += (q / p) * (1.0 - opened)
+            stays += (q / p) * (1.0 - once_read(chances, opened, sensed.ways[way]) * (1.0 - fails))
+            opened *= 1.0 - fails
             if lead.to != NOWHERE and lead.to not in skip:
                 ahead[lead.to] = ahead.get(lead.to, 0.0) + q * opened * lead.sure * exp(sensed.of_taking(way))
         ahead[number] = ahead.get(number, 0.0) + p * stays * exp(sensed.of_taking(NOWHERE))
