@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import numpy as np
-from scipy.special import digamma, gammaln
 
 from ..model import CogmapError, ConditionalTable, Factor, FactorGraph, FloatArray, IntArray, Variable
 from .errors import ImpossibleEvidence
@@ -152,6 +151,8 @@ class _Tables:
 
     def _expected_logs(self) -> None:
         """exp E[log θ] under Dirichlet(prior + counts)."""
+        from scipy.special import digamma  # slow to import
+
         posteriors = [table.prior + counts for table, counts in zip(self.tables, self.counts, strict=True)]
         self.values = [np.exp(digamma(each) - digamma(each.sum(axis=0))) for each in posteriors]
 
@@ -282,6 +283,8 @@ def _normalised(counts: FloatArray, otherwise: FloatArray) -> FloatArray:
 
 def _divergence(one: FloatArray, other: FloatArray) -> float:
     """KL[Dirichlet(one) || Dirichlet(other)], summed over the columns."""
+    from scipy.special import digamma, gammaln  # slow to import
+
     totals = one.sum(axis=0), other.sum(axis=0)
     columns = gammaln(totals[0]) - gammaln(totals[1]) - (gammaln(one) - gammaln(other)).sum(axis=0)
     columns = columns + ((one - other) * (digamma(one) - digamma(totals[0]))).sum(axis=0)

@@ -58,10 +58,10 @@ def test_with_nothing_dropped_all_is_plain(name: str, policies: str) -> None:
 
 
 def test_what_is_dropped_is_told() -> None:
-    world = MazeEnv(labyrinth(60, sights=2, rng=np.random.default_rng(0)))
+    world = MazeEnv(labyrinth(30, sights=2, rng=np.random.default_rng(0)))
     agent = agent_with(world.motions, look_ahead=3, beam=1, starts=1)
     told: dict[str, list[float]] = {"support": [], "beam": [], "starts": []}
-    for _ in walk(world, agent, 150, seed=0, displace_every=25):
+    for _ in walk(world, agent, 60, seed=0, displace_every=20):
         told["support"].append(agent.belief.dropped)
         told["beam"].append(agent.plan.cut)
         told["starts"].append(agent.plan.dropped)

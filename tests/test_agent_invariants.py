@@ -14,7 +14,7 @@ from walks import assert_agent_is_sound
 
 from cogmap import UNSEEN
 
-WALKS, FEW, BATCHES, STEPS = 200, 80, 10, 18
+WALKS, FEW, BATCHES, STEPS = 200, 30, 10, 18
 
 
 def drawn(rng: np.random.Generator) -> tuple[MazeEnv, Agent]:

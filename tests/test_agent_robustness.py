@@ -75,7 +75,7 @@ def meddle(world: MazeEnv, rng: np.random.Generator) -> None:
         "engine": "numpy",
     },
 )  # the map is built anew without the place it began with
-@budget(max_examples=25, deadline=None)
+@budget(max_examples=12, deadline=None)
 def test_walks_through_random_mazes_that_change(
     seed: int, rooms: int, sights: int | None, given_options: dict[str, Any], steer: bool
 ) -> None:

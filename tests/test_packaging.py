@@ -37,8 +37,12 @@ def test_the_package_itself_has_what_most_people_need() -> None:
         cogmap.Agnet  # noqa: B018
 
 
-def test_the_package_itself_is_light() -> None:
-    code = "import sys, cogmap; print(*(name for name in ('numpy', 'gymnasium', 'gtsam') if name in sys.modules))"
+@pytest.mark.parametrize(
+    ("module", "heavy"),
+    [("cogmap", "numpy gymnasium gtsam"), ("cogmap.agent", "scipy networkx gymnasium pandas gtsam matplotlib ssl")],
+)
+def test_what_is_heavy_is_imported_where_it_is_used(module: str, heavy: str) -> None:
+    code = f"import sys, {module}; print(*(name for name in {heavy.split()} if name in sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""
 

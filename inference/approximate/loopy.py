@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy.special import xlogy
 
 from ...model import CogmapError, Factor, FloatArray, IntArray
 from ..errors import impossible
@@ -188,6 +187,8 @@ class _Run:
 
     def log_evidence(self) -> float:
         """Σ_f Σ b_f log(f / b_f) + Σ_i (d_i - 1) Σ b_i log b_i, d_i the number of tables of node i."""
+        from scipy.special import xlogy  # slow to import, and only needed here
+
         beliefs = _normalised(self.nodes)
         shared = np.zeros(len(beliefs))
         total = self.problem.log_scale + _expected(beliefs, self.own)

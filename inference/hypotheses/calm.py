@@ -1,6 +1,6 @@
 """The short way of a step that leaves no doubt: one branch, where bounds show that no other can survive."""
 
-from math import exp, log
+from math import exp, inf, log
 
 from .branches import Alternative, Lead, Walker, leads, look_alikes
 from .evidence import log_predictive, new_sight_probability, sight_probability
@@ -28,6 +28,7 @@ class _Calm:
         self.h, self.sensed, self.chances = h, sensed, h.chances
         self.walker = Walker(h, sensed)
         self.ways = self._best_ways()
+        self.best = self._best()
         self.astray = self.walker.astray
         self.stayed = h.weight + log(1.0 - h.chances.moved)
         self.put_there = h.weight + self.walker.put_there
@@ -93,6 +94,8 @@ class _Calm:
         h, action = self.h, self.sensed.action
         if not self.astray:
             return True
+        if log(self.astray * exp(self.stayed) + exp(self.put_there)) + self.best <= floor:
+            return True
         for way in h.awake:
             if way == action:
                 continue
@@ -108,8 +111,7 @@ class _Calm:
     def _moved_fails(self, main: Alternative, floor: float) -> bool:
         if not main.charted and self.put_there + log(self.walker.unseen) + self._new() > floor:
             return False
-        best = self.ways + sum(log(right) for right in self.chances.right)
-        if self.sensed.others is None and self.put_there + best <= floor:
+        if self.put_there + self.best <= floor:
             return True
         return all(
             self.put_there + self._at(number) <= floor
@@ -130,6 +132,13 @@ class _Calm:
         if self.new is None:
             self.new = self._best_new()
         return self.new
+
+    def _best(self) -> float:
+        """At most log P(sensed | any place)."""
+        if self.sensed.others is not None:
+            return inf
+        read = zip(self.chances.right, self.sensed.sights, strict=True)
+        return self.ways + sum([log(right) for right, reading in read if reading is not None])
 
     def _best_new(self) -> float:
         total, others = self.ways, self.sensed.others

@@ -125,7 +125,8 @@ def way_odds(h: Hypothesis, number: int, place: Place, way: int) -> float:
     """Log odds that a way is open: what was read here, and from the other side of the door."""
     if len(h.awake) < h.scheme.count and way not in h.awake:
         return -h.chances.limit
-    return odds_beyond(h, number, place.ways[way].net, way, h.neighbour(place, way))
+    known = place.ways[way]
+    return odds_beyond(h, number, known.net, way, known.to if known.to != NOWHERE else h.neighbour(place, way))
 
 
 def odds_beyond(h: Hypothesis, number: int, net: float, way: int, other: int) -> float:

@@ -330,7 +330,8 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     opened, blocked, wrong, right, beside, shut, undone, one_way = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     chances = h.chances
     for index in h.awake:
-        way, other = place.ways[index], h.neighbour(place, index)
+        way = place.ways[index]
+        other = way.to if way.to != NOWHERE else h.neighbour(place, index)
         known = other != NOWHERE
         odds = odds_beyond(h, number, way.net, index, other)
         if way.net or odds != (chances.beside if known else chances.odds):

@@ -133,7 +133,7 @@ class RateCounts:
 
     def mean(self, rate: int) -> float:
         """Posterior mean of one rate."""
-        return RATE_PRIORS[rate].mean(*self.of(rate))
+        return _mean(rate, *self.of(rate))
 
     def of(self, rate: int) -> tuple[float, float]:
         """How often a rate was found true, and false."""
@@ -168,6 +168,12 @@ class RateCounts:
         most = max(logs)
         weights = [exp(value - most) for value in logs]
         self.yes[BLAMED] = sum(share * w for share, w in zip(SPLITS, weights, strict=True)) / sum(weights)
+
+
+@lru_cache(maxsize=1 << 12)
+def _mean(rate: int, yes: float, no: float) -> float:
+    """`RatePrior.mean` of one rate: hypotheses of one step have most counts in common."""
+    return RATE_PRIORS[rate].mean(yes, no)
 
 
 @lru_cache(maxsize=1 << 12)

@@ -4,8 +4,6 @@ import heapq
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
 
 from ...model import Carried, Floats, Ints
 from ..local import Frontier, MapView, Surroundings
@@ -188,6 +186,9 @@ def _back_on_map(around: Surroundings, ends: Ints, search: _Search) -> Floats:
     Of a way that another one undoes both are open; where nobody knows what undoes any, all are. What nothing undoes
     among ways that are undone, such as to take a key, leads one way.
     """
+    from scipy.sparse import csr_array  # slow to import, and only needed where ends of a map are many
+    from scipy.sparse.csgraph import dijkstra
+
     map_, motions = around.map, around.map.motions
     size, entered = len(map_.places), map_.visited_places
     if len(entered) > LARGEST:

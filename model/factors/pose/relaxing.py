@@ -6,10 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solveh_banded
-from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import dijkstra
-from scipy.sparse.linalg import spsolve
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -77,6 +73,9 @@ def relaxed(where: Floats, measured: Measured, free: Ints) -> Floats:
         for a in (0, 1)
         for b in (0, 1)
     ]
+    from scipy.sparse import coo_array  # slow to import, and only needed in metric maps
+    from scipy.sparse.linalg import spsolve
+
     axes = np.arange(AXES)
     row = np.concatenate([(i[:, None, None] * AXES + axes[:, None] + 0 * axes).ravel() for i, _, _, _, _ in blocks])
     column = np.concatenate([(j[:, None, None] * AXES + 0 * axes[:, None] + axes).ravel() for _, j, _, _, _ in blocks])
@@ -100,6 +99,8 @@ def straightened(where: Floats, measured: Measured, heading: Floats, free: Ints)
         where, measured, free: as for `relaxed`.
         heading: `[E]` what was thought of the headings so far.
     """
+    from scipy.linalg import solveh_banded  # slow to import
+
     found, heading = where.copy(), heading.copy()
     raw = measured.moved[:, 0] + 1j * measured.moved[:, 1]
     ends = measured.ends
@@ -121,23 +122,25 @@ def drift(measured: Measured, source: int, places: Ints, size: int) -> Floats:
 
     Variances add up along the ways that were walked; infinite where none leads.
     """
-    first, second = measured.ends.T
-    variance = np.square(measured.along)
-    graph = csr_array((variance, (first, second)), shape=(size, size))
-    return np.sqrt(dijkstra(graph, directed=False, indices=source)[places])
+    return np.sqrt(_shortest(measured, np.square(measured.along), source, size)[places])
 
 
 def path_length(measured: Measured, source: int, places: Ints, size: int) -> Floats:
     """`[n]` how long the shortest way from `source` along measured ones is; infinite where none leads."""
-    first, second = measured.ends.T
-    graph = csr_array((np.linalg.norm(measured.moved, axis=1), (first, second)), shape=(size, size))
-    return dijkstra(graph, directed=False, indices=source)[places]
+    return _shortest(measured, np.linalg.norm(measured.moved, axis=1), source, size)[places]
 
 
 def around(measured: Measured, ends: Ints, most: int, size: int) -> Ints:
     """The places nearest to `ends` by steps along measured ways, `most` or fewer, ascending."""
-    first, second = measured.ends.T
-    graph = csr_array((np.ones(len(first)), (first, second)), shape=(size, size))
-    steps = dijkstra(graph, directed=False, indices=ends, unweighted=True, min_only=True)
+    steps = _shortest(measured, np.ones(len(measured.ends)), ends, size, unweighted=True, min_only=True)
     order = np.argsort(steps, kind="stable")[:most]
     return np.sort(order[np.isfinite(steps[order])])
+
+
+def _shortest(measured: Measured, length: Floats, source: int | Ints, size: int, **options: bool) -> Floats:
+    """What the shortest ways from `source` add up to; `length` is that of each measured one."""
+    from scipy.sparse import csr_array  # slow to import, and only needed in metric maps
+    from scipy.sparse.csgraph import dijkstra
+
+    graph = csr_array((length, tuple(measured.ends.T)), shape=(size, size))
+    return dijkstra(graph, directed=False, indices=source, **options)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from html import escape
 from typing import NoReturn
 from xml.parsers import expat
-from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -69,10 +69,10 @@ def write_xmlbif(graph: FactorGraph) -> str:
     """
     lines = [_HEAD]
     for name, labels in texts("XMLBIF", graph).items():
-        outcomes = "".join(f"<OUTCOME>{escape(label)}</OUTCOME>" for label in labels)
-        lines.append(f'<VARIABLE TYPE="nature"><NAME>{escape(name)}</NAME>{outcomes}</VARIABLE>')
+        outcomes = "".join(f"<OUTCOME>{escape(label, quote=False)}</OUTCOME>" for label in labels)
+        lines.append(f'<VARIABLE TYPE="nature"><NAME>{escape(name, quote=False)}</NAME>{outcomes}</VARIABLE>')
     for factor in conditionals_of("XMLBIF", graph):
-        child, *parents = [escape(variable.name) for variable in factor.scope]
+        child, *parents = [escape(variable.name, quote=False) for variable in factor.scope]
         given = "".join(f"<GIVEN>{parent}</GIVEN>" for parent in parents)
         numbers = " ".join(map(repr, np.moveaxis(factor.dense(), 0, -1).ravel().tolist()))
         lines.append(f"<DEFINITION><FOR>{child}</FOR>{given}<TABLE>{numbers}</TABLE></DEFINITION>")
