@@ -1,6 +1,6 @@
 """What was known of a map before it is built anew: which place is which, and what is left of counts that fade."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 
 from ..inference import NOWHERE, Hypothesis, Place
 from ..model import CognitiveMap
@@ -9,7 +9,9 @@ Counts = tuple[float, float]
 """Evidence that a way is blocked, and that it leads on."""
 
 
-def still_there(h: Hypothesis, records: Mapping[int, Place], places: Iterable[int]) -> dict[int, int]:
+def still_there(
+    h: Hypothesis, records: Mapping[int, Place], places: Iterable[int], *, among: Collection[int] | None = None
+) -> dict[int, int]:
     """By number of a place as it was, the place of a hypothesis where the agent was at its last visit.
 
     One that has kept its number comes last, so that it counts where others are one with it now.
@@ -18,8 +20,10 @@ def still_there(h: Hypothesis, records: Mapping[int, Place], places: Iterable[in
         h: the hypothesis.
         records: of the one before, by number.
         places: the numbers.
+        among: of these at most something has changed; any unless given.
     """
-    visits = {time: number for number in h.places for time in h.places[number].recent}
+    known = h.places if among is None else [number for number in among if h.places.get(number) is not None]
+    visits = {time: number for number in known for time in h.places[number].recent}
     others, same = dict[int, int](), dict[int, int]()
     for old in places:
         number = visits.get(records[old].recent[-1]) if records[old].recent else None

@@ -1,6 +1,7 @@
 """Has the map say what the most probable hypothesis says."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,9 @@ from ..model import CognitiveMap, Column, Growth, Position, Ways, Whereabouts
 from .counterparts import Counterparts
 from .doors import Doors
 from .fading import Counts, fade_to, left_of, still_there, unheard
+
+SMALL = 64
+"""Places of a map that is built anew, and so put into order, whenever one of them is gone."""
 
 WALKS = 3  # Walks along a way from which on more of them add nothing to its counts
 SURE = 0.9  # From this probability on a way is taken to be open, or shut
@@ -36,6 +40,9 @@ class Journal(dict[int, Any]):
         self.notes = None
 
 
+Point = tuple[Journal, Journal, frozenset[int], Any]
+
+
 class Mirror:
     """The places of a hypothesis, and what it knows of them, in a map.
 
@@ -51,6 +58,7 @@ class Mirror:
         self.places: dict[int, int] = {}
         self.missed: set[int] = set()
         self._records: dict[int, Place] = {}
+        self._stamp: Any = None  # of the hypothesis of which these are the records
         found = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Ways)]
         self.ways = found[0] if found else map_.unsensed_ways()
         self.counterparts = Counterparts(map_, growth, self.ways)
@@ -188,6 +196,7 @@ class Mirror:
     def _note(self, h: Hypothesis, touched: Iterable[int]) -> None:
         for number in {h.here, *touched}:
             self._records[number] = h.places[number]
+        self._stamp = h.places.stamp
 
     def follow(self, h: Hypothesis, *, step: int) -> dict[int, int] | None:
         """Have the map say what the hypothesis says.
@@ -196,31 +205,82 @@ class Mirror:
             Where the places of the map are now that it was built anew, those that are gone left out; None where only
             what is known of its places has changed.
         """
-        changed = [number for number in h.places if number in self.missed or self._differs(h, number)]
-        if self._fits(h, changed):
-            for number in changed:
-                if number not in self.places:
-                    self._add(h, number, step=step)
-            for number in changed:
-                self._map.blank(self.places[number])
-            self._teach(h, changed, step=step)
-            moved = None
+        before, records, asked = self.places, self._records, self._asked(h)
+        gone = [number for number in asked if number in before and self._elsewhere(h, number)]
+        beside = self._take_away(gone, step=step) if gone else set[int]()
+        changed = [k for k in sorted(beside.union(asked)) if h.places.get(k) is not None and self._differs(h, k)]
+        if (gone and not beside) or not self._fits(h, changed):
+            moved = self._rebuild(h, before, records, step=step)
+            self._records = {number: h.places[number] for number in h.places}
         else:
-            moved = self._rebuild(h, step=step)
-        self._records = {number: h.places[number] for number in h.places}
-        self.missed = set()
+            self._change(h, changed, step=step)
+            same = still_there(h, records, before, among=asked) if gone else {}
+            moved = {before[old]: self.places[number] for old, number in same.items()} if gone else None
+        self._stamp, self.missed = h.places.stamp, set()
         return moved
+
+    def _asked(self, h: Hypothesis) -> Sequence[int]:
+        """The places of which something else may be known than the map says, or which there are not any more."""
+        changed = None if self._stamp is None else h.places.changed_since(self._stamp)
+        return sorted({*h.places, *self.places} if changed is None else changed | self.missed)
+
+    def _elsewhere(self, h: Hypothesis, number: int) -> bool:
+        """Whether there is no such place any more, or not where the map has it."""
+        at = None if h.places.get(number) is None else self.position(h, number)
+        return h.places.get(number) is None or (at is not None and self._map.pose.place_at(at) != self.places[number])
+
+    def _change(self, h: Hypothesis, changed: Sequence[int], *, step: int) -> None:
+        """Have the map say of some places what the hypothesis says, and of the others what it says already."""
+        for number in changed:
+            if number not in self.places:
+                self._add(h, number, step=step)
+        for number in changed:
+            self._map.blank(self.places[number])
+        self._teach(h, changed, step=step)
+        for number in {*changed} - self._records.keys():
+            self._lead_back(h, number, {*changed})
+        self._note(h, changed)
 
     def _differs(self, h: Hypothesis, number: int) -> bool:
         now, before = h.places[number], self._records.get(number)
-        return now is not before and now != before
+        return number in self.missed or (now is not before and now != before)
+
+    def _take_away(self, gone: Collection[int], *, step: int) -> set[int]:
+        """Take all places from the end of the map, up to the first of those that are gone.
+
+        Returns:
+            Which of those that are left or taken away are to be taught anew; none where that cannot be, or the map is
+            small: then it is to be built anew, which gives its places numbers in order.
+        """
+        map_, first = self._map, min(self.places[number] for number in gone)
+        size, order = len(map_.motions), map_.visits.order.values
+        since = {number for number, place in self.places.items() if place >= first}
+        last = {self.places[number] for number in since} == {*order[len(order) - len(since) :].tolist()}
+        alone = last and map_.visited[first:].sum() == len(since) and not self._kept() and not map_.transitions.fading
+        if not alone or first <= max(SMALL, len(map_.places) // 2):
+            return set()
+        rows, _ = np.nonzero(map_.B_s.keys(slice(first * size)) >= first)
+        beside = {*(rows // size).tolist()}
+        imagined = [place for place in beside if not map_.visited[place]]
+        if not all(self._entered(place, -1, before=first) for place in imagined):
+            return set()
+        map_.clear(step=step, first=first)
+        for place in sorted(beside):
+            map_.blank(place)
+            for action, neighbour in map_.pose.neighbours(place):
+                map_.transitions.link(place, action, neighbour)
+                if not map_.visited[place]:
+                    beside.add(neighbour)
+        self.places = {number: place for number, place in self.places.items() if place < first}
+        near = {number for number, place in self.places.items() if place in beside}
+        known = self.places.keys() - near  # of those beside the map says nothing any more
+        self._records = {number: record for number, record in self._records.items() if number in known}
+        return near | since
 
     def _fits(self, h: Hypothesis, changed: Sequence[int]) -> bool:
-        """Whether no place of the map is too many, or elsewhere than the hypothesis has it."""
+        """Whether no place of the map is elsewhere than the hypothesis has it."""
         map_ = self._map
-        if not self.places or any(h.places.get(number) is None for number in self.places):
-            return False
-        if h.periods.get(0, ()) != map_.pose.periods or map_.pose.origin is None:
+        if not self.places or h.periods.get(0, ()) != map_.pose.periods or map_.pose.origin is None:
             return False
         for number in {*changed, h.here}:
             at, place = self.position(h, number), self.places.get(number)
@@ -251,12 +311,13 @@ class Mirror:
                     return False
         return True
 
-    def _entered(self, imagined: int, place: int) -> bool:
-        """Whether an open way leads to an imagined place from another one than `place`."""
+    def _entered(self, imagined: int, place: int, *, before: float = inf) -> bool:
+        """Whether an open way leads to an imagined place from another one than `place`, of those `before` a number."""
         map_ = self._map
         for action, neighbour in map_.pose.neighbours(imagined):
             back = np.array([map_.row(neighbour, map_.motions.inverse[action])])
-            if neighbour != place and map_.visited[neighbour] and map_.B_s.probability(imagined, back)[0] > 0.5:
+            there = neighbour != place and neighbour < before
+            if there and map_.visited[neighbour] and map_.B_s.probability(imagined, back)[0] > 0.5:
                 return True
         return False
 
@@ -268,8 +329,10 @@ class Mirror:
 
     # -- building ------------------------------------------------------------------------------------------
 
-    def _rebuild(self, h: Hypothesis, *, step: int) -> dict[int, int]:
-        same, before, kept = still_there(h, self._records, self.places), self.places, self._kept()
+    def _rebuild(
+        self, h: Hypothesis, before: Mapping[int, int], records: Mapping[int, Place], *, step: int
+    ) -> dict[int, int]:
+        same, kept = still_there(h, records, before), self._kept()
         faded = self._faded(h, same, step=step) if self._map.transitions.fading else {}
         self._map.clear(step=step)
         self._map.pose.close(h.periods.get(0, ()))
@@ -368,20 +431,30 @@ class Mirror:
                 for _ in range(min(known.walks, WALKS)):
                     map_.transitions.learn(place, action, self.places[known.to], 1.0, back=action not in one_way)
 
+    def _lead_back(self, h: Hypothesis, number: int, taught: Collection[int]) -> None:
+        """What walks to a place of which the map knew nothing any more say of its ways back, but for those taught."""
+        map_, inverse = self._map, self._map.motions.inverse
+        for source, way in sorted(h.places[number].into):
+            action, known = self._actions[way], h.places[source].ways[way]
+            leads = source not in taught and known.to == number and known.walks and inverse[action] >= 0
+            if leads and action not in self.one_way(h, source):
+                amount = min(known.walks, WALKS) * map_.rates.possible[1]
+                map_.transitions.add(self.places[source], self.places[number], inverse[action], amount)
+
     # -- going back ----------------------------------------------------------------------------------------
 
-    def savepoint(self) -> tuple[Journal, Journal, frozenset[int]]:
+    def savepoint(self) -> Point:
         """What `go_back` needs: which place is which, and what was known of each."""
         if not isinstance(self.places, Journal):
             self.places = Journal(self.places)
         if not isinstance(self._records, Journal):
             self._records = Journal(self._records)
         self.places.notes, self._records.notes = [], []
-        return self.places, self._records, frozenset(self.missed)
+        return self.places, self._records, frozenset(self.missed), self._stamp
 
-    def go_back(self, point: tuple[Journal, Journal, frozenset[int]]) -> None:
+    def go_back(self, point: Point) -> None:
         """Be as it was."""
-        self.places, self._records, missed = point
+        self.places, self._records, missed, self._stamp = point
         self.places.go_back()
         self._records.go_back()
         self.missed = set(missed)
@@ -392,6 +465,7 @@ class Mirror:
         """Take over which place is which, as the map has them, and of which it was not taught the last steps."""
         self.places, self.missed = dict(places), set(missed)
         self._records = {number: h.places[number] for number in h.places}
+        self._stamp = h.places.stamp
 
 
 def _sure(p: float) -> bool | float:

@@ -283,14 +283,17 @@ class GenerativeModel:
             if factor is not self.pose:
                 factor.blank(place)
 
-    def clear(self, *, step: int) -> None:
-        """Take all places away; labels and positions that were met stay in their domains."""
+    def clear(self, *, step: int, first: int = 0) -> None:
+        """Take all places from `first` on away; labels and positions that were met stay in their domains.
+
+        Those of them that were visited have to be the last that were.
+        """
         before = self._size
-        while len(self.visits.order):
+        while len(self.visits.order) and self.visits.order.values[-1] >= first:
             self.visits.forget()
-        for place in reversed(range(before)):
+        for place in reversed(range(first, before)):
             self.blank(place)
             self.pose.blank(place)
             self.changes.append(Change(self, place, True, False))
             self.put(place, False)
-        self._log(step, "retract", before)
+        self._log(step, "retract", before - first)

@@ -1,7 +1,10 @@
 from __future__ import annotations
 
+import contextlib
 import importlib
+import io
 import json
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -20,11 +23,18 @@ BENCHMARKS = Path(__file__).parent.parent / "benchmarks"
 
 
 def measured(name: str, tmp_path: Path, *arguments: str) -> tuple[str, dict[str, Any]]:
-    file = tmp_path / "out.json"
-    command = [sys.executable, str(BENCHMARKS / name), *arguments, "--json", str(file)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
-    return done.stdout, json.loads(file.read_text())
+    """What a benchmark prints and writes, run in this process, which has imported everything already."""
+    file, printed = tmp_path / "out.json", io.StringIO()
+    with pytest.MonkeyPatch.context() as patch, contextlib.redirect_stdout(printed):
+        patch.setattr(sys, "argv", [name, *arguments, "--json", str(file)])
+        patch.syspath_prepend(str((BENCHMARKS / name).parent))
+        patch.chdir(tmp_path)
+        try:
+            runpy.run_path(str(BENCHMARKS / name), run_name="__main__")
+        except SystemExit as end:
+            if end.code:
+                pytest.fail(str(end.code))
+    return printed.getvalue(), json.loads(file.read_text())
 
 
 def test_an_agent_led_along_a_recorded_animal_is_where_it_is_led(tmp_path: Path) -> None:

@@ -24,6 +24,8 @@ FEW, MOST_BESIDE = 5, 600  # agents of each other kind at most, and steps of the
 LATE = 200  # from this step on an agent should know where it is
 SURE = 0.99
 BINS = (0.5, 0.6, 0.7, 0.8, 0.9)  # lower ends of those of the reliability diagram
+COUNTED = {"belongs": "it belongs to the true room", "right": "and is no new place in a known room"}
+"""When a place counts as right."""
 ALONG = "_along"  # behind the name of a graph that learns on the walks of `cogmap`
 NAMES = {name: f"{LOOKS[name.removesuffix(ALONG)][0]}{', our walks' * name.endswith(ALONG)}" for name in (
     "cogmap", "cscg", "cscg_pose", f"cscg{ALONG}", f"cscg_pose{ALONG}"
@@ -131,9 +133,12 @@ class IdentityRow(Record):
     certain_but_wrong: float | None
     right_late: float | None  # share of the steps from `LATE` on at which the most probable place was the true one
     sure: int  # steps at which its certainty was `SURE` or more
-    sure_wrong: int  # and of these in a wrong place
+    sure_elsewhere: int  # and of these in a place that belongs to another room
+    sure_wrong: int  # or in a new place, in a room that was visited before
     held: tuple[float, ...]  # by bin of `BINS`: steps with this certainty
-    right: tuple[float, ...]  # and of these in the right place
+    # and of these in a place that belongs to the true room: a place belongs to the room where it was visited most
+    belongs: tuple[float, ...]
+    right: tuple[float, ...]  # and that is no new place in a room that was visited before, either
     rates: dict[str, float]  # learned
     ms: float = field(compare=False)  # a step, judging included
     hypotheses: tuple[float, ...] = field(repr=False)  # by step: how many there are
@@ -159,7 +164,8 @@ class Watcher:
         self.trail, self.session, self.whole = Trail(), session, whole
         self.moments = list[Moment]()
         self.exact = list[bool]()
-        self.held = list[tuple[float, bool]]()  # certainty, and whether it is in the right place
+        # certainty, whether the place belongs to the true room, and whether it is the right place
+        self.held = list[tuple[float, bool, bool]]()
         self.counted = list[tuple[float, float]]()  # hypotheses, and places of the map
         self.verdict: Verdict | None = None
 
@@ -176,7 +182,8 @@ class Watcher:
         self.verdict = self.trail.verdict(agent, chart)
         whole = len(set(rooms)) == self.verdict.places == len(chart.places)
         self.exact.append(self.verdict.map_right and (whole or not self.whole))
-        self.held.append((agent.belief.certainty, self.trail.right(agent)))
+        belongs = self.trail.room(agent, agent.belief.place) == rooms[-1]
+        self.held.append((agent.belief.certainty, belongs, self.trail.right(agent)))
         self.counted.append((float(len(agent.hypotheses)), float(self.verdict.places)))
 
     def row(self, task: Task, moved_at: int, ms: float) -> IdentityRow:
@@ -185,8 +192,8 @@ class Watcher:
         rates = agent.learned_rates if isinstance(agent, Agent) else ()
         exact, verdict, held = self.exact, self.verdict, self.held
         wrong = len(exact) - 1 - next((k for k, is_exact in enumerate(reversed(exact)) if not is_exact), len(exact))
-        late, sure = [right for _, right in held[LATE:]], [right for p, right in held if p >= SURE]
-        bins = [[right for p, right in held if low <= p < low + 0.1 or low == BINS[-1] <= p] for low in BINS]
+        late, sure = [right for *_, right in held[LATE:]], [one for one in held if one[0] >= SURE]
+        bins = [[one for one in held if low <= one[0] < low + 0.1 or low == BINS[-1] <= one[0]] for low in BINS]
         return IdentityRow(
             *task,
             rooms=len(self.session.truth.number),
@@ -198,14 +205,16 @@ class Watcher:
             certain_but_wrong=None if verdict is None else round(self.trail.wrong / len(exact), 4),
             right_late=sum(late) / len(late) if late else None,
             sure=len(sure),
-            sure_wrong=sure.count(False),
+            sure_elsewhere=sum(not belongs for _, belongs, _ in sure),
+            sure_wrong=sum(not right for *_, right in sure),
             held=tuple(float(len(part)) for part in bins),
-            right=tuple(float(sum(part)) for part in bins),
+            belongs=tuple(float(sum(belongs for _, belongs, _ in part)) for part in bins),
+            right=tuple(float(sum(right for *_, right in part)) for part in bins),
             rates={rate.name: round(rate.mean, 4) for rate in rates},
             ms=round(ms, 3),
             hypotheses=tuple(number for number, _ in self.counted),
             sizes=tuple(places for _, places in self.counted),
-            certainty=tuple(round(p, 4) for p, _ in held),
+            certainty=tuple(round(p, 4) for p, *_ in held),
         )
 
 
@@ -265,9 +274,8 @@ class Identity(Kept[Task, IdentityRow]):
         summary = [_summary(*key, every) for key, every in groups.items()]
         ours = [row for row in rows if row.agent == "cogmap"]
         trust = [_trust(ours, number) for number in range(len(BINS))]
-        shares = {f"{part['from']:.1f}": part["right"] for part in trust if part["steps"]}
         noisy = [line for line in summary if line["agent"] == "cogmap" and len(CASES[line["case"]].noise) == 1]
-        figures = {"identity_exact": partial(_exact, summary), "identity_certainty": partial(_certainty, shares)}
+        figures = {"identity_exact": partial(_exact, summary), "identity_certainty": partial(_certainty, trust)}
         figures |= {"identity_rates": partial(_rates, noisy)} if any(line["rate"] for line in noisy) else {}
         for name in DRAWN:
             if first := next((row for row in ours if row.case.startswith(name)), None):
@@ -276,14 +284,23 @@ class Identity(Kept[Task, IdentityRow]):
         tables = [
             Table.of(self.name, [row.figures() for row in rows], "every run", shown=False),
             Table.of("identity_table", [_cells(line) for line in summary], captions[0]),
-            Table.of("identity_trust", [{**part, "right": _share(part["right"])} for part in trust], captions[1]),
+            Table.of(
+                "identity_trust",
+                [{**part, **{name: _share(part[name]) for name in COUNTED}} for part in trust],
+                captions[1],
+            ),
         ]
-        sure = sum(row.sure for row in ours), sum(row.sure_wrong for row in ours)
+        sure, *wrong = (sum(getattr(row, name) for row in ours) for name in ("sure", "sure_elsewhere", "sure_wrong"))
         lines = [
             " ".join(f"{text!s:<{wide}}" for text, wide in zip(_cells(line).values(), WIDE, strict=True))
             for line in summary
         ]
-        lines += [f"sure at {SURE} in {sure[0]} steps, and wrong in {sure[1]} of them"]
+        lines += [
+            f"certainty {part['from']:.1f} to {part['to']:.1f}, {part['steps']} steps: "
+            + ", ".join(f"{words} in {_share(part[name])}" for name, words in COUNTED.items())
+            for part in trust
+        ]
+        lines += [f"sure at {SURE} in {sure} steps, and wrong in {wrong[0]} of them, or {wrong[1]} with new places"]
         protocol = {name: {"steps": CASES[name].steps, "noise": CASES[name].noise} for name in self.cases}
         json = {"protocol": protocol, "rows": [row.figures() for row in rows], "summary": summary, "trust": trust}
         failed = [
@@ -363,8 +380,9 @@ def _share(share: Share) -> str:
 
 def _trust(rows: Sequence[IdentityRow], number: int) -> dict[str, Any]:
     """How often the place was right at a certainty."""
-    steps, right = (int(sum(getattr(row, name)[number] for row in rows)) for name in ("held", "right"))
-    return {"from": BINS[number], "to": round(BINS[number] + 0.1, 1), "steps": steps, "right": wilson(right, steps)}
+    steps, *right = (int(sum(getattr(row, name)[number] for row in rows)) for name in ("held", *COUNTED))
+    shares = {name: wilson(count, steps) for name, count in zip(COUNTED, right, strict=True)}
+    return {"from": BINS[number], "to": round(BINS[number] + 0.1, 1), "steps": steps, **shares}
 
 
 def _exact(summary: Sequence[Mapping[str, Any]]) -> Figure:
@@ -383,13 +401,16 @@ def _exact(summary: Sequence[Mapping[str, Any]]) -> Figure:
     return figure
 
 
-def _certainty(shares: Mapping[str, Share]) -> Figure:
+def _certainty(trust: Sequence[Mapping[str, Any]]) -> Figure:
     figure, (ax,) = panels("How far certainty can be trusted (95 % intervals)", (1, 1), (5.0, 4.4))
-    at = [float(low) + 0.05 for low in shares]
+    held = [part for part in trust if part["steps"]]
     ax.plot([0.5, 1.0], [0.5, 1.0], color="grey", linewidth=1.0, linestyle=":")
-    plot_line(ax, at, list(shares.values()), color=BLUE, marker="o")
-    ax.set(xlabel="certainty", xlim=(0.48, 1.02))
-    shares_axis(ax, "in the right place")
+    for (name, words), colour in zip(COUNTED.items(), (BLUE, VERMILION), strict=True):
+        at, shares = [part["from"] + 0.05 for part in held], [part[name] for part in held]
+        plot_line(ax, at, shares, color=colour, marker="o", label=words)
+    ax.set(xlabel="certainty of the place", xlim=(0.48, 1.02))
+    shares_axis(ax, "right")
+    ax.legend(frameon=False)
     return figure
 
 

@@ -5,7 +5,8 @@ from heapq import nlargest
 from math import exp, inf, log
 from typing import NamedTuple
 
-from .evidence import log_likelihood, log_predictive, probability, way_odds
+from .chances import Chances
+from .evidence import log_likelihood, log_predictive, probability, reading_probability, way_odds
 from .hypothesis import Hypothesis
 from .logs import log_sum
 from .rates import OPEN
@@ -135,10 +136,11 @@ class Walker:
         """It is where it was: told to stay, blocked, failed, or put there; None if that is below the floor."""
         action, fails, astray = self.sensed.action, self.fails, self.astray
         self.arrived.add(self.h.here)
-        stays = {way: 1.0 - self.open(way) * (1.0 - fails) for way in self.h.awake}
+        opened = {way: once_read(self.chances, self.open(way), self.sensed.ways[way]) for way in self.h.awake}
+        stays = {way: 1.0 - p * (1.0 - fails) for way, p in opened.items()}
         lost = astray * slips_into_staying(self.h, self.given, stays)
         given = (1.0 - astray) * (1.0 if action is None else stays[action])
-        failed = 0.0 if action is None else (1.0 - astray) * self.open(action) * fails
+        failed = 0.0 if action is None else (1.0 - astray) * opened[action] * fails
         put_here = exp(self.put_there + self.h.weight - before)
         walked = (given + lost) * exp(self.sensed.of_taking(NOWHERE))
         total = walked + put_here
@@ -187,8 +189,20 @@ class Walker:
             self.arrived.add(lead.to)
             ratio = exp(self.put_there + self.h.weight - weight)
             weight, moved = weight + log(1.0 + ratio), ratio / (1.0 + ratio)
-        weight += self.at(lead.to)
+        weight += self.at(lead.to) + self._read_from_behind(way, lead.to)
         return Alternative(weight, self.h, way, lead.to, False, astray * (1.0 - moved), 0.0, moved)
+
+    def _read_from_behind(self, way: int, to: int) -> float:
+        """How much more probable what is read of the way back is for having walked here: mostly it is the same door."""
+        inverse, chances = self.h.scheme.inverse, self.chances
+        if inverse is None or (reading := self.sensed.ways[inverse[way]]) is None or inverse[way] not in self.h.awake:
+            return 0.0
+        there, back = self.h.places[to], inverse[way]
+        if there.ways[back].to not in (NOWHERE, self.h.here):
+            return 0.0
+        before = probability(way_odds(self.h, to, there, back))
+        after = chances.undone + (1.0 - chances.undone) * before
+        return log(reading_probability(chances, after, reading) / reading_probability(chances, before, reading))
 
     def _moved(self) -> Iterator[Alternative]:
         h, each = self.h, self.h.weight + self.put_there
@@ -215,6 +229,14 @@ class Walker:
         if found is None:
             found = self.evidence[number] = log_likelihood(self.h, number, self.sensed)
         return found
+
+
+def once_read(chances: Chances, p_open: float, reading: float | None) -> float:
+    """P(a way is open | what is read of it now): what keeps the agent in its place is read there as well."""
+    if reading is None:
+        return p_open
+    as_open, as_blocked = (reading_probability(chances, p, reading) for p in (1.0, 0.0))
+    return p_open * as_open / (p_open * as_open + (1.0 - p_open) * as_blocked)
 
 
 def slips_into_staying(h: Hypothesis, given: int, stays: Mapping[int, float]) -> float:

@@ -3,7 +3,7 @@
 from math import exp, inf, log
 
 from .branches import Alternative, Lead, Walker, leads, look_alikes
-from .evidence import log_predictive, new_sight_probability, sight_probability
+from .evidence import log_predictive, new_sight_probability, readings_probability, sight_probability
 from .hypothesis import Hypothesis
 from .records import NOWHERE
 from .scheme import Sensed
@@ -148,10 +148,5 @@ class _Calm:
         return total if others is None else total + others(None)
 
     def _best_ways(self) -> float:
-        total, wrong = 0.0, self.chances.wrong
-        for way in self.h.awake:
-            reading = self.sensed.ways[way]
-            if reading is not None:
-                sure = max(reading, 1.0 - reading)
-                total += log(sure * (1.0 - wrong) + (1.0 - sure) * wrong)
-        return total
+        looks = [look for way in self.h.awake if (look := self.sensed.ways[way]) is not None]
+        return log(readings_probability(self.chances, [(1.0, max(look, 1.0 - look)) for look in looks]))

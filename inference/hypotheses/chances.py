@@ -13,6 +13,7 @@ from .rates import (
     MOVED,
     NEW,
     OPEN,
+    RATE_PRIORS,
     RELINKED,
     SIGHT_MISREAD,
     SQUARE,
@@ -34,6 +35,7 @@ class Chances:
         open, odds: P(a way is open) and its log odds.
         beside: log odds that a way is open beyond which there is a known place.
         wrong, unit: P(a way is misread) and the log odds that one reading is worth.
+        wrongs: (probability, P(a way is misread)) of each kind of world: where one reading is wrong, others may be.
         limit, most: the log odds beyond which nothing is believed of a way, since it may change; in readings.
         misread, right, sight_unit: P(a sight is misread as a certain other label), P(it is read right), and the log
             odds that one reading is worth; a sensor each.
@@ -68,6 +70,7 @@ class Chances:
         "undone",
         "unit",
         "wrong",
+        "wrongs",
     )
 
     def __init__(self, counts: RateCounts, labels: Sequence[int], *, size: int = 1) -> None:
@@ -78,7 +81,9 @@ class Chances:
         self.beside = log(between / (1.0 - between))
         self.open = mean(OPEN)
         self.odds = log(self.open / (1.0 - self.open))
-        self.wrong = min(max(mean(WAY_MISREAD), SUREST), LEAST_SURE)
+        parts = RATE_PRIORS[WAY_MISREAD].posterior(*counts.of(WAY_MISREAD))
+        self.wrongs = tuple((weight, min(max(wrong, SUREST), LEAST_SURE)) for weight, wrong in parts)
+        self.wrong = sum(weight * wrong for weight, wrong in self.wrongs)
         self.unit = log((1.0 - self.wrong) / self.wrong)
         self.rebuilt = mean(CHANGED)
         self.limit = -log(self.rebuilt)

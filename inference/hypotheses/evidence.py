@@ -1,6 +1,6 @@
 """How likely a sensed is at a place, known or never seen, under one hypothesis."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from math import exp, log
 
 from .chances import Chances
@@ -36,22 +36,18 @@ def was_rebuilt(h: Hypothesis, number: int, place: Place, sensed: Sensed) -> boo
 
 
 def _ways_as_they_were(h: Hypothesis, number: int, place: Place, sensed: Sensed) -> float:
-    q = 1.0
-    for way in h.awake:
-        reading = sensed.ways[way]
-        if reading is not None:
-            q *= reading_probability(h.chances, probability(way_odds(h, number, place, way)), reading)
-    return q
+    return _read_so(h, sensed, lambda way: probability(way_odds(h, number, place, way)))
 
 
 def _anew(h: Hypothesis, sensed: Sensed) -> float:
     """P(ways as they are read), of a place of which nothing is known: that of one that was rebuilt."""
-    p = 1.0
-    for way in h.awake:
-        reading = sensed.ways[way]
-        if reading is not None:
-            p *= reading_probability(h.chances, h.open(way), reading)
-    return p
+    return _read_so(h, sensed, h.open)
+
+
+def _read_so(h: Hypothesis, sensed: Sensed, open_: Callable[[int], float]) -> float:
+    """P(ways as they are read), by P(open) of each."""
+    looks = sensed.ways
+    return readings_probability(h.chances, [(open_(way), look) for way in h.awake if (look := looks[way]) is not None])
 
 
 def log_predictive(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | None, source: int) -> float:
@@ -64,14 +60,11 @@ def log_predictive(h: Hypothesis, sensed: Sensed, key: Key | None, back: int | N
         back: the way back to where the agent came from, where that is known.
         source: where it came from.
     """
-    chances, p = h.chances, 1.0
+    p = 1.0
     for sensor, reading in enumerate(sensed.sights):
         if reading is not None:
             p *= new_sight_probability(h, sensor, reading)
-    for way in h.awake:
-        reading = sensed.ways[way]
-        if reading is not None:
-            p *= reading_probability(chances, _expected_open(h, key, way, back, source), reading)
+    p *= _read_so(h, sensed, lambda way: _expected_open(h, key, way, back, source))
     return log(max(p, LEAST)) + (0.0 if sensed.others is None else sensed.others(None))
 
 
@@ -206,6 +199,17 @@ def reading_probability(chances: Chances, p_open: float, reading: float) -> floa
     if reading == 1.0:
         return as_open
     return reading * as_open + (1.0 - reading) * (1.0 - as_open)
+
+
+def readings_probability(chances: Chances, readings: Sequence[tuple[float, float]]) -> float:
+    """P(readings of several ways | P(open) of each): in a world of doubtful doors all of them are doubtful."""
+    total = 0.0
+    for weight, wrong in chances.wrongs:
+        for p_open, reading in readings:
+            as_open = wrong + p_open * (1.0 - 2.0 * wrong)
+            weight *= as_open if reading == 1.0 else reading * as_open + (1.0 - reading) * (1.0 - as_open)
+        total += weight
+    return total
 
 
 def _expected_open(h: Hypothesis, key: Key | None, way: int, back: int | None, source: int) -> float:

@@ -8,7 +8,7 @@ from functools import lru_cache
 from math import log
 
 from ...model import SHOWN
-from .branches import Alternative, slips_into_staying
+from .branches import Alternative, once_read, slips_into_staying
 from .chances import Chances
 from .evidence import count_alike, label_shares, odds_beyond, probability, same_door, was_rebuilt, way_odds
 from .hypothesis import Hypothesis
@@ -72,7 +72,7 @@ def _count_how(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
     yes[MOVED] += branch.moved
     no[MOVED] += kept
     if branch.way == NOWHERE and branch.to == h.here and _unexplained(sensed):
-        _count_walls(h, sensed.action, kept)
+        _count_walls(h, sensed, kept)
         return
     if branch.astray and branch.way != NOWHERE:
         h.slipped(NOWHERE if sensed.action is None else sensed.action, branch.way, branch.astray)
@@ -82,12 +82,14 @@ def _count_how(h: Hypothesis, branch: Alternative, sensed: Sensed) -> None:
     no[FAILS] += kept * (branch.way != NOWHERE)
 
 
-def _count_walls(h: Hypothesis, given: int | None, weight: float) -> None:
+def _count_walls(h: Hypothesis, sensed: Sensed, weight: float) -> None:
     """A move did not lead on: another way may have been taken that is shut, as far as the one given is open."""
+    given, place, chances = sensed.action, h.places[h.here], h.chances
     if given is None:
         return
-    place, fails, astray = h.places[h.here], h.chances.fails, h.chances.astray
-    stays = {way: 1.0 - probability(way_odds(h, h.here, place, way)) * (1.0 - fails) for way in h.awake}
+    fails, astray = chances.fails, chances.astray
+    opened = {way: probability(way_odds(h, h.here, place, way)) for way in h.awake}
+    stays = {way: 1.0 - once_read(chances, p, sensed.ways[way]) * (1.0 - fails) for way, p in opened.items()}
     own = stays.pop(given, 1.0) * (1.0 - astray)
     others = {way: astray * h.slip(given, way) * p for way, p in (stays | {NOWHERE: 1.0}).items()}
     total = weight / (own + sum(others.values()))

@@ -145,13 +145,21 @@ class Hypothesis:
         return (opened + OWN * self.chances.open) / (opened + blocked + OWN)
 
     def slip(self, given: int, taken: int) -> float:
-        """P(a way is taken | another than the one given is): a Dirichlet a way given, that all places share."""
-        count, inverse = max(len(self.awake), 1), self.scheme.inverse  # the others are never taken
+        """P(a way is taken | another than the one given is): a Dirichlet a way given, that all places share.
+
+        To stay is taken no oftener than evenly: whatever keeps the agent where it is beyond that is a move that failed.
+        """
+        count = max(len(self.awake), 1)  # the others are never taken
         if not (slips := self.slips.get((given, given))):
             return 1.0 / count
+        total, even = slips + EVEN * (count - 1) + ROUND, 1.0 / count
+        stays = 0.0 if given == NOWHERE else (self.slips.get((given, NOWHERE), 0.0) + EVEN) / total
+        if taken == NOWHERE:
+            return min(stays, even)
+        inverse = self.scheme.inverse
         turns = taken >= 0 <= given and inverse is not None and inverse[given] == taken != given
-        prior = ROUND if turns else EVEN
-        return (self.slips.get((given, taken), 0.0) + prior) / (slips + EVEN * (count - 1) + ROUND)
+        p = (self.slips.get((given, taken), 0.0) + (ROUND if turns else EVEN)) / total
+        return p * (1.0 - even) / (1.0 - stays) if stays > even else p
 
     def slipped(self, given: int, taken: int, weight: float) -> None:
         """Count that another way than the one given was taken."""

@@ -43,6 +43,21 @@ class Shared(dict[K, V]):
             self.log = self.log[-LOGGED:]
 
 
+@dataclass(frozen=True, slots=True)
+class Stamp(Generic[K]):
+    """When a mapping was looked at.
+
+    Attributes:
+        shared: its shared layer.
+        mark: the state of that.
+        own: the keys of its own entries.
+    """
+
+    shared: object
+    mark: int
+    own: frozenset[K]
+
+
 @dataclass(frozen=True)
 class Kept(Generic[K]):
     """The keys of entries that are the same in two mappings.
@@ -91,6 +106,17 @@ class Layered(Generic[K, V]):
         own = dict(reversed(self._base.log[mark - self._base.cut :]))
         own.update(self._own)
         return Layered(self._base, own)
+
+    @property
+    def stamp(self) -> Stamp[K]:
+        """What `changed_since` needs to know of it as it is now."""
+        return Stamp(self._base, self._base.mark, frozenset(self._own))
+
+    def changed_since(self, stamp: Stamp[K]) -> set[K] | None:
+        """The keys of all entries that may be others than in the mapping of that stamp; None where nobody knows."""
+        if stamp.shared is not self._base or stamp.mark < self._base.cut:
+            return None
+        return {*stamp.own, *self._own, *(key for key, _ in self._base.log[stamp.mark - self._base.cut :])}
 
     @property
     def layers(self) -> tuple[Shared[K, V], dict[K, V | None]]:

@@ -35,13 +35,15 @@ class RatePrior:
         if len(self.parts) == 1:
             _, a, b = self.parts[0]
             return (a + yes) / (a + b + yes + no)
+        return sum(weight * mean for weight, mean in self.posterior(yes, no))
+
+    def posterior(self, yes: float, no: float) -> tuple[tuple[float, float], ...]:
+        """(P(part | counts), E[rate | part, counts]) of each part."""
         logs = self._logs(yes, no)
-        total = weighed = 0.0
-        for (_, a, b), value in zip(self.parts, logs, strict=True):
-            weight = exp(min(value - logs[0], 500.0))
-            total += weight
-            weighed += weight * (a + yes) / (a + b + yes + no)
-        return weighed / total
+        weights = [exp(min(value - logs[0], 500.0)) for value in logs]
+        total = sum(weights)
+        means = ((a + yes) / (a + b + yes + no) for _, a, b in self.parts)
+        return tuple((weight / total, mean) for weight, mean in zip(weights, means, strict=True))
 
     def log_evidence(self, yes: float, no: float) -> float:
         """log ∫ rate^yes (1 - rate)^no P(rate) d rate."""
@@ -74,7 +76,7 @@ READ = ((0.9, 0.5, 500.0), (0.09, 0.5, 20.0), (0.01, 6.0, 14.0))
 RATE_PRIORS = (
     _beta("open", 1.0, 1.0, "a way is open"),
     RatePrior("sight_misread", "a sight is read as another", READ),
-    _beta("way_misread", 0.5, 20.0, "an open way is read as blocked, or a blocked one as open"),
+    RatePrior("way_misread", "an open way is read as blocked, or a blocked one as open", READ),
     RatePrior("fails", "a move through an open way fails", CALM_OR_NOT),
     RatePrior("astray", "another action is carried out than the one given", CALM_OR_NOT),
     RatePrior("moved", "the agent is moved without a word", LEFT_ALONE),

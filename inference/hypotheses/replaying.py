@@ -1,11 +1,11 @@
 """Places that were never there: steps replayed in the map as it is, and in the map without them."""
 
 from collections import deque
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from math import exp, log
 
-from .branches import leads, slips_into_staying
+from .branches import leads, once_read, slips_into_staying
 from .evidence import before_reading, log_likelihood, probability, way_odds
 from .hypothesis import Hypothesis
 from .rates import MOVED
@@ -20,6 +20,9 @@ OFTEN = 0.02
 
 SELDOM = 8  # Visits from which on a place is not doubted any more; the times of fewer are all known
 LARGEST = 64  # Places of a fragment that is doubted as a whole
+
+STAGE = 64
+"""Places of a map up to which steps are replayed among all of them; and, of a larger one, that look like one step."""
 
 
 class History:
@@ -128,8 +131,9 @@ def without(h: Hypothesis, numbers: Collection[int], history: History, *, floor:
     """
     gain, moves = _prior_cost(h, numbers), 0.0
     for spell in _spells(h, numbers, history):
+        among = _stage(h, numbers, spell, history)
         for sign, skip in ((1.0, numbers), (-1.0, ())):
-            evidence, moved = replayed(h, history, *spell, skip=skip, start_without=numbers)
+            evidence, moved = replayed(h, history, *spell, skip=skip, start_without=numbers, among=among)
             gain += sign * evidence
             moves += sign * moved
     if h.weight + gain < floor:
@@ -143,13 +147,38 @@ def without(h: Hypothesis, numbers: Collection[int], history: History, *, floor:
     return other
 
 
+def _stage(h: Hypothesis, numbers: Collection[int], spell: tuple[int, int], history: History) -> Sequence[int]:
+    """The places among which a spell is replayed: of a large map those that are near, and those that look like it."""
+    if h.size <= STAGE:
+        return [*h.places]
+    near, edge = {*numbers}, {*numbers}
+    for _ in range(MARGIN + 1):
+        records = [h.places[number] for number in edge]
+        ahead = {h.neighbour(place, way) for place in records for way in h.awake}
+        edge = ahead.union(source for place in records for source, _ in place.into) - near - {NOWHERE}
+        near |= edge
+    for time in range(spell[0], spell[1] + 1):
+        for key in enumerate(history[time].sights):
+            if isinstance(key[1], int):
+                near.update((h.shown.get((key[0], key[1])) or ())[-STAGE:])
+    return sorted(near)
+
+
 def replayed(
-    h: Hypothesis, history: History, first: int, last: int, *, skip: Collection[int], start_without: Collection[int]
+    h: Hypothesis,
+    history: History,
+    first: int,
+    last: int,
+    *,
+    skip: Collection[int],
+    start_without: Collection[int],
+    among: Sequence[int],
 ) -> tuple[float, float]:
     """log P(percepts first … last | the map), started anywhere but in the places `start_without`, never in `skip`;
-    and how many silent moves there were in these steps, as is expected.
+    and how many silent moves there were in these steps, as is expected. The places `among` which it was moved are all
+    that it may have started in; where they are all left out, it is any other.
     """
-    start = [k for k in h.places if k not in start_without]
+    start = [k for k in among if k not in start_without] or [k for k in h.places if k not in start_without]
     logs = {k: log_likelihood(h, k, history[first]) for k in start}
     most = max(logs.values())
     belief = {k: exp(value - most) for k, value in logs.items() if value > most - 14.0}
@@ -157,7 +186,7 @@ def replayed(
     evidence = moves = 0.0
     for time in range(first + 1, last + 1):
         sensed = history[time]
-        ahead = _predicted(h, {k: p / total for k, p in belief.items()}, sensed, skip)
+        ahead = _predicted(h, {k: p / total for k, p in belief.items()}, sensed, skip, among)
         fits = {k: exp(log_likelihood(h, k, sensed)) for k in ahead}
         belief = {k: p * fits[k] for k, p in ahead.items()}
         total = sum(belief.values())
@@ -167,10 +196,12 @@ def replayed(
     return evidence, moves
 
 
-def _predicted(h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Collection[int]) -> dict[int, float]:
-    """Where the agent is before the sensed, with silent moves to every place evenly."""
+def _predicted(
+    h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Collection[int], among: Sequence[int]
+) -> dict[int, float]:
+    """Where the agent is before the sensed, with silent moves to every place evenly, of those `among` which it is."""
     chances, action = h.chances, sensed.action
-    ahead: dict[int, float] = {k: chances.moved / h.size for k in h.places if k not in skip}
+    ahead: dict[int, float] = {k: chances.moved / h.size for k in among if k not in skip}
     given, fails = NOWHERE if action is None else action, max(chances.fails, sensed.fails)
     always = slips_into_staying(h, given, dict.fromkeys(h.awake, 0.0))
     stays_anyway = (1.0 - chances.astray) * (action is None) + chances.astray * always
@@ -180,9 +211,10 @@ def _predicted(h: Hypothesis, belief: dict[int, float], sensed: Sensed, skip: Co
         place, stays = h.places[number], stays_anyway
         for way in h.awake:
             q = p * (1.0 - chances.astray if way == action else each[way])
-            opened = probability(way_odds(h, number, place, way)) * (1.0 - fails)
+            opened = probability(way_odds(h, number, place, way))
             lead = leads(h, number, place, way)
-            stays += (q / p) * (1.0 - opened)
+            stays += (q / p) * (1.0 - once_read(chances, opened, sensed.ways[way]) * (1.0 - fails))
+            opened *= 1.0 - fails
             if lead.to != NOWHERE and lead.to not in skip:
                 ahead[lead.to] = ahead.get(lead.to, 0.0) + q * opened * lead.sure * exp(sensed.of_taking(way))
         ahead[number] = ahead.get(number, 0.0) + p * stays * exp(sensed.of_taking(NOWHERE))

@@ -33,6 +33,9 @@ LONGEST = 10**6
 MUCH, NET, FAR = 1e12, 128.0, 10**12
 """What counts, evidence of a way in readings, and coordinates are below."""
 
+LATER_NUMBERS = 0, False, 0, 0
+"""Numbers of a tracker that some states do not have, as they were then."""
+
 FIRST_RATES, FIRST_SHARE, FIRST_WAY = 13, 8, 5
 """Rates, and numbers of what a place shares, and of a way, of a state that does not say how many it has."""
 
@@ -49,9 +52,9 @@ class Parts:
     doubts: Sequence[int]
     labels: tuple[int, ...]
     evidence: float
-    numbers: tuple[int, int, bool, int, int, bool]
-    """Time, place in `doubts`, whether all is clear, steps without doubt, how often it was begun anew, and whether
-    labels and ways are not all that was sensed."""
+    numbers: tuple[int, int, bool, int, int, bool, int, int]
+    """Time, place in `doubts`, whether all is clear, steps without doubt, how often it was begun anew, whether labels
+    and ways are not all that was sensed, doubts in a row that came to nothing, and when the last of them was over."""
     awake: tuple[int, ...]
 
 
@@ -201,14 +204,16 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
     history.norms.extend(source.counts().items() if header.get("norms") else ((time, 0.0) for time, _ in history))
     source.end()
     kind, places = header["change"]
-    time, doubted, clear, quiet, tries, partly = (*header["numbers"], 0, False)[:6]
+    numbers = header["numbers"]
+    time, doubted, clear, quiet, tries, partly, in_a_row, cleared = (*numbers, *LATER_NUMBERS[len(numbers) - 4 :])
     awake = tuple(int(way) for way in header.get("awake", range(scheme.count)))
     if not {*awake_ways(scheme)} <= set(awake) <= set(range(scheme.count)) or sorted(set(awake)) != [*awake]:
         raise ValueError("it thinks of ways that there are not")
     evidence, labels = float(header["evidence"]), tuple(int(n) for n in header["labels"])
     parts = Parts(
         hypotheses[:alive], history, tried, tuple(past), Change(kind, tuple(places)), doubts, labels, evidence,
-        (int(time), int(doubted), bool(clear), int(quiet), int(tries), bool(partly)), awake,
+        (int(time), int(doubted), bool(clear), int(quiet), int(tries), bool(partly), int(in_a_row), int(cleared)),
+        awake,
     )  # fmt: skip
     _check_parts(scheme, parts)
     return parts
@@ -216,7 +221,7 @@ def _read(scheme: WayScheme, header: Mapping[str, Any], source: Reader) -> Parts
 
 def _check_parts(scheme: WayScheme, parts: Parts) -> None:
     """Refuse parts that contradict each other."""
-    time, doubted, *_, tries, _ = parts.numbers
+    time, doubted, _, _, tries, _, in_a_row, cleared = parts.numbers
     alive = bool(parts.hypotheses)
     if abs(sum(exp(h.weight) for h in parts.hypotheses) - alive) > 1e-6 or not isfinite(parts.evidence):
         raise ValueError("its weights do not add up to one")
@@ -225,7 +230,7 @@ def _check_parts(scheme: WayScheme, parts: Parts) -> None:
     times = [time for time, _ in parts.history]
     if [time for time, _ in parts.history.norms] != times or not all(isfinite(norm) for _, norm in parts.history.norms):
         raise ValueError("its steps are not all weighed")
-    if not 0 <= tries <= time:
+    if not (0 <= tries <= time and 0 <= in_a_row <= time and 0 <= cleared <= time):
         raise ValueError("its numbers contradict each other")
     if times != list(range(time - len(times), time)) or parts.change.kind not in ("extended", "revised"):
         raise ValueError("its steps do not follow each other")

@@ -36,6 +36,9 @@ from .surveying import surveyed
 QUIET = 4
 """Steps without doubt after which what is improbable is let go."""
 
+PATIENCE = 8
+"""Doubts in a row, as far as may be looked back, that came to nothing, after which the next one of their kind waits."""
+
 NEAR = log(100.0)
 """Hypotheses with a new place in which look-alikes are tried to be united are at most so far below the best one."""
 
@@ -92,6 +95,7 @@ class Tracker:
         self._clear, self._quiet = True, 0
         self._past: tuple[Past, ...] = ()
         self._tries, self._partly = 0, False
+        self._in_a_row = self._cleared = 0  # doubts that came to nothing, and when the last of them was over
 
     @property
     def best(self) -> Hypothesis:
@@ -167,6 +171,7 @@ class Tracker:
         self._overwritten = []  # what the step before has overwritten is not to be put back
         kept = self.labels, self.evidence, self.change, self._doubts, self._doubted, self._tried
         kept += self._clear, self._quiet, self._past, self.awake, self._tries, self._partly
+        kept += self._in_a_row, self._cleared
         return Checkpoint(self.time, tuple(self.hypotheses), tuple(h.weight for h in self.hypotheses), kept)
 
     def rollback(self, checkpoint: Checkpoint) -> None:
@@ -182,7 +187,8 @@ class Tracker:
             )
         self.time, self.hypotheses = checkpoint.time, list(checkpoint.hypotheses)
         self.labels, self.evidence, self.change, self._doubts, self._doubted, tried, *rest = checkpoint.kept
-        self._clear, self._quiet, self._past, self.awake, self._tries, self._partly = rest
+        self._clear, self._quiet, self._past, self.awake, self._tries, self._partly, *rest = rest
+        self._in_a_row, self._cleared = rest
         for key, before in reversed(self._overwritten if tried is self._tried else ()):
             if before is None:
                 tried.pop(key, None)
@@ -196,6 +202,7 @@ class Tracker:
     def state(self) -> tuple[dict[str, Any], Arrays]:
         """All that `restored` needs to walk on: a header for JSON, and arrays of numbers."""
         numbers = self.time, self._doubted, self._clear, self._quiet, self._tries, self._partly
+        numbers += self._in_a_row, self._cleared
         parts = Parts(
             self.hypotheses, self.history, self._tried, self._past, self.change, self._doubts, self.labels,
             self.evidence, numbers, self.awake,
@@ -216,7 +223,7 @@ class Tracker:
         tracker.evidence, tracker.change, tracker._tried = parts.evidence, parts.change, parts.tried
         tracker._past, tracker._doubts = parts.past, parts.doubts
         tracker.time, tracker._doubted, tracker._clear, tracker._quiet, *rest = parts.numbers
-        tracker._tries, tracker._partly = rest
+        tracker._tries, tracker._partly, tracker._in_a_row, tracker._cleared = rest
         tracker.awake = parts.awake
         for h in tracker.hypotheses:
             h.awake, h.chances = tracker.awake, Chances(h.counts, tracker.labels, size=h.size)
@@ -263,20 +270,22 @@ class Tracker:
         if self._clear or self._partly or not is_odd(found[0], tries) or tries_until(self.time) <= tries:
             return found
         history, first = self.history, first_told(self.history.start, self.time, tries)
-        self._tries = tries_until(self.time)
+        self._tries = max(tries_until(self.time), tries_until(3 * self.time // 2) - 1)  # later and later, if in vain
         if not is_known(found[0], history.start):
             return found
         other = Tracker(self.scheme, replace(self.options, most=max(self.options.most // 2, 1)))
         other.time, other.awake, other._partly = first, self.awake, True
         for time in range(first, self.time + 1):
             other.step(history[time], [n - 1 for n in self.labels])
-        earlier = replayed(other.best, history, history.start, first - 1, skip=(), start_without=())[0]
+        among = [*other.best.places]
+        earlier = replayed(other.best, history, history.start, first - 1, skip=(), start_without=(), among=among)[0]
         gain = other.history.norm(first) + earlier - history.norm(history.start + 1)
         if other.best.weight + gain <= found[0].weight:
             return found
         if self.scheme.displacements is not None:
             lay_over(other.hypotheses, first, found[0].places[found[0].here])
         history.revalue(gain)
+        self._tries = tries_until(self.time)
         self._tried, self._past, self._doubted, self._quiet = {}, (), 0, 0
         self.change = Change("revised")
         return other.hypotheses
@@ -305,6 +314,10 @@ class Tracker:
     ) -> list[Hypothesis]:
         """What is kept: while nothing is in doubt the best one alone, or else all, with what was passed over before."""
         step, wide = Past(self.time, previous, previous.marks, self.labels, 0.0), -log(self.options.least)
+        if found[0].origin is not previous:
+            self._in_a_row = 0
+        if self._clear and len(found) > 1 and self._waits(found):
+            found = found[:1]
         if self._clear and len(found) > 1:
             floor = found[0].weight - wide
             over = passed_over((*self._past, step), self.history, sensed, narrow=drop, wide=wide, floor=floor)
@@ -312,6 +325,7 @@ class Tracker:
             folds = (fold for h in again if h.crowd is None for fold in self._folds(h, floor))
             found = merged(found, [*again, *folds])
             self._clear, self._quiet = False, 0
+            self._in_a_row = self._in_a_row + 1 if self.time - self._cleared <= 2 * BACK else 1
         found, norm = normalised(found, drop=wide, most=self.options.most)
         self._past = (*self._past, step._replace(norm=norm))[-BACK:]
         self.history.weigh(norm)
@@ -319,8 +333,18 @@ class Tracker:
             self._quiet = 0 if self._open_question(found) else self._quiet + 1
             if self._quiet > QUIET:
                 self._clear, found = True, normalised(found, drop=wide, most=1)[0]
+                self._cleared = self.time
                 found[0].apart = False
         return found
+
+    def _waits(self, found: Sequence[Hypothesis]) -> bool:
+        """Whether a doubt waits: of the kind that came to nothing again and again.
+
+        Nothing is lost by that but time: what is passed over meanwhile is looked back on, so it waits no longer than
+        for the steps that are.
+        """
+        wait = min(2 ** min(self._in_a_row - PATIENCE, 10), BACK) if self._in_a_row >= PATIENCE else 0
+        return self.time < self._cleared + wait and not self._open_question(found)
 
     def _open_question(self, found: Sequence[Hypothesis]) -> bool:
         """Whether another hypothesis says more than that a place is not where the pose says."""
