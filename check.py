@@ -35,13 +35,14 @@ PROGRAMS = {"chromium": "chromium", "dot": "graphviz"}  # and the Debian package
 
 _LINT_IMPORTS = "from importlinter.cli import lint_imports_command; lint_imports_command(['--no-cache'])"
 _COVERAGE = ("--cov", f"--cov-fail-under={LEAST_COVERAGE}", "--cov-report=term:skip-covered")
+_SHARED = ("--dist", "loadfile", "--no-loadscope-reorder")  # what the tests of a file share is made once
 _COUNTED = _COVERAGE if sys.version_info >= (3, 12) else ()
 CHECKS: dict[str, Sequence[str]] = {
     "format": ("-m", "ruff", "format", "--check", "."),
     "lint": ("-m", "ruff", "check", "."),
     "types": ("-m", "pyright", "--pythonpath", sys.executable),
     "import rules": ("-c", _LINT_IMPORTS),
-    "tests": ("-m", "pytest", "-n", str(JOBS), "--dist", "loadgroup", *_COUNTED),
+    "tests": ("-m", "pytest", "-n", str(JOBS), *_SHARED, *_COUNTED),
 }
 
 

@@ -1,7 +1,7 @@
 """Observations, checked before anything believes them."""
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -117,6 +117,8 @@ def _moved(moved: Any, model: GenerativeModel) -> bool:
 def _displacement(measured: Any, model: GenerativeModel) -> tuple[float, ...]:
     sizes = (2, 3) if model.pose.settles else (model.pose.dimensions,)
     try:
+        if isinstance(measured, bytes | Mapping | Set):  # their items would pass for numbers in order
+            raise TypeError
         plain = (each for each in measured if each is not np.ma.masked and not isinstance(each, str | bytes | bool))
         vector = tuple(map(float, plain))
     except (TypeError, ValueError):

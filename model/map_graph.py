@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .factors import BLOCKED, OPEN, Sight
+from .factors import BLOCKED, OPEN, Carried, Sight
 from .graph import quoted
 from .labels import shown
 from .readable_map import ReadableMap
@@ -24,7 +24,8 @@ def map_graph(map_: ReadableMap) -> nx.MultiDiGraph[Any]:
     """Places as nodes, transitions as edges keyed by action name.
 
     Nodes carry `position` (None where it has none), `visited` (else it was imagined only), and
-    `sights` (label -> probability above a thousandth; what another sensor of labels sees stands under its name).
+    `sights` (label -> probability above a thousandth; what another sensor of labels sees stands under its name), and
+    what is carried there, where the map has places for that.
     Edges carry `action`, `probability` (of B_s), `count` (the evidence for it, prior left out), and `known`, what is
     known of this way out of the place: `walked`, `imagined` (its door was sensed open), `refuted` (sensed blocked) or
     `unknown` (its door was never sensed from this side; it may still have a `count`, which came with the way here).
@@ -37,8 +38,10 @@ def map_graph(map_: ReadableMap) -> nx.MultiDiGraph[Any]:
     graph.node_attr_dict_factory = PlaceFacts
     seen = [_sights(map_, sight) for sight in map_.sights_sensed]
     names = ["sights", *(sight.name for sight in map_.sights_sensed[1:])]
+    carried = [sensor for sensor in map_.sensors.values() if isinstance(sensor, Carried)]
     for place in map_.places:
-        facts = dict(zip(names, (labels[place] for labels in seen), strict=False)) or {"sights": {}}
+        facts: dict[str, Any] = dict(zip(names, (labels[place] for labels in seen), strict=False)) or {"sights": {}}
+        facts |= {sensor.name: sensor.carried_in(place) for sensor in carried}
         graph.add_node(place, position=map_.position(place), visited=bool(map_.visited[place]), **facts)
     for place, action, next_, probability, count in transitions(map_):
         name = map_.motions.names[action]
@@ -141,6 +144,7 @@ def _plain_place(facts: dict[str, Any]) -> dict[str, Any]:
 def _dot_place(place: int, facts: dict[str, Any]) -> str:
     best = next(iter(facts["sights"]), None) if facts["visited"] else None
     label = f"{place}\n{shown(best, most=20)}" if facts["visited"] and facts["sights"] else str(place)
+    label = "\n".join([label, *(facts[name] for name in facts if isinstance(facts[name], str))])
     style = "filled" if facts["visited"] else "dashed"
     position = facts["position"]
     at = ""

@@ -174,6 +174,19 @@ def test_a_key_that_was_found_is_fetched_for_a_door_that_was_seen() -> None:
     assert posterior.marginal(f"carried{agent.steps - 1}")[1] == pytest.approx(agent.contexts["key"], abs=1e-9)
 
 
+def test_the_map_as_a_graph_says_what_is_carried_where() -> None:
+    world, agent = Locked(), Agent(FETCH, seed=0)
+    fetched(agent, world, 3)
+    told = [
+        (next(iter(facts["sights"]), None), facts["carried"]) for _, facts in agent.map.to_networkx().nodes(data=True)
+    ]
+    rooms = ("hall", "room", "store")
+    assert sorted((room, what) for room, what in told if room) == [(r, c) for r in rooms for c in ("key", "nothing")]
+    assert (None, "key") in told  # behind the locked door
+    assert {"carried"} <= set(json.loads(agent.map.to_json())["nodes"][0])
+    assert "nothing" in agent.map.to_dot()
+
+
 def test_what_is_learned_with_a_key_is_known_without() -> None:
     world, agent = Locked(), Agent(FETCH, seed=0)
     fetched(agent, world, 4)

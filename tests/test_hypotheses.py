@@ -7,10 +7,18 @@ from math import exp, log
 
 import numpy as np
 import pytest
-from cogmap.inference.hypotheses import NOWHERE, Sensed, Tracker, TrackerOptions, WayScheme
+from cogmap.inference.hypotheses import NOWHERE, Hypothesis, Sensed, Tracker, TrackerOptions, WayScheme
 from cogmap.inference.hypotheses.branches import branches, leads
 from cogmap.inference.hypotheses.chances import Chances
-from cogmap.inference.hypotheses.evidence import before_reading, both_sides, probability, same_door, way_odds
+from cogmap.inference.hypotheses.evidence import (
+    before_reading,
+    both_sides,
+    probability,
+    reading_probability,
+    readings_probability,
+    same_door,
+    way_odds,
+)
 from cogmap.inference.hypotheses.layered import Layered
 from cogmap.inference.hypotheses.pruning import alike
 from cogmap.inference.hypotheses.rates import (
@@ -22,6 +30,7 @@ from cogmap.inference.hypotheses.rates import (
     RATE_PRIORS,
     SQUARE,
     STAYED,
+    WAY_MISREAD,
     RateCounts,
     crp_evidence,
     crp_predictive,
@@ -470,3 +479,37 @@ def test_a_room_of_which_several_doors_are_shut_at_once_is_the_same_room():
     opened = [probability(way_odds(tracker.best, middle, tracker.best.places[middle], way)) for way in range(4)]
     assert [p > 0.5 for p in opened] == [False, False, True, False]
     assert exp(tracker.best.weight) > 0.9
+
+
+def test_a_bump_and_what_is_then_read_of_the_door_are_one_event() -> None:
+    tracker, wall = Tracker(LATTICE), (0.0, 0.0)
+    for label in range(8):  # along a corridor of rooms that all differ, to a last door that was misread
+        tracker.step(Sensed((label,), (float(label > 0), 1.0, *wall), None if label == 0 else 1), [label + 1])
+    tracker.step(Sensed((7,), (1.0, 0.0, *wall), 1), [8])
+    best = tracker.best
+    assert (best.size, best.here) == (8, 7)
+    assert exp(best.weight) > 0.5  # the door was misread once; not twice, and the move failed as well
+
+
+def test_of_several_readings_some_are_wrong_together() -> None:
+    counts = RateCounts()
+    counts.yes[WAY_MISREAD], counts.no[WAY_MISREAD] = 2.0, 30.0
+    chances = Chances(counts, [2])
+    readings = [(0.99, 0.0), (0.98, 0.0), (0.01, 1.0), (0.5, 0.3)]
+    expected = 0.0
+    for weight, wrong in RATE_PRIORS[WAY_MISREAD].posterior(2.0, 30.0):
+        as_open = [p * (1.0 - wrong) + (1.0 - p) * wrong for p, _ in readings]
+        each = [r * p + (1.0 - r) * (1.0 - p) for (_, r), p in zip(readings, as_open, strict=True)]
+        expected += weight * float(np.prod(each))
+    together = readings_probability(chances, readings)
+    assert together == pytest.approx(expected)
+    assert together > float(np.prod([reading_probability(chances, *one) for one in readings]))
+
+
+def test_a_slip_stays_no_oftener_than_evenly() -> None:
+    h = Hypothesis(LATTICE)
+    for taken, times in ((NOWHERE, 50), (1, 3), (2, 5), (3, 4)):
+        h.slipped(0, taken, float(times))
+    assert h.slip(0, NOWHERE) == pytest.approx(1.0 / 4)
+    assert sum(h.slip(0, taken) for taken in (NOWHERE, 1, 2, 3)) == pytest.approx(1.0)
+    assert h.slip(0, 2) > h.slip(0, 3) > h.slip(0, 1)  # the pattern of the others is as it was learned

@@ -63,17 +63,18 @@ def test_an_action_that_was_open_once_may_be_open_again() -> None:
 
 
 def walked(actions: int, steps: int, *, hatch: bool = False) -> Agent:
-    """An agent after a walk in 4x4_alias; with a hatch the first further action is open from step 20 on."""
+    """An agent after a walk in 4x4_alias; with a hatch further action 0 is open from step 20 on, and kept from."""
     world, agent = MazeEnv(MAZES["4x4_alias"]), Agent(with_more(actions), seed=0)
     seen, _ = world.reset(seed=0)
+    said: dict[str, str] = {}
     for step in range(steps):
         open_ = [*map(bool, seen["open"]), *[False] * actions]
         if hatch and step >= 20:
             open_[5] = True
-        action = agent.step({**seen, "open": open_})
-        if action > 4:
-            break
-        seen, *_ = world.step(action)
+        action = agent.step({**seen, "open": open_, **said})
+        said = {"taken": "stay"} if action > 4 else {}
+        if not said:
+            seen, *_ = world.step(action)
     return agent
 
 

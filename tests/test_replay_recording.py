@@ -19,8 +19,6 @@ from cogmap.worlds import load_world
 from recordings import close_elsewhere, eventful_walk, kidnaps, outline, probabilities, recorded, witnessed_walk
 from walks import GRID
 
-pytestmark = pytest.mark.xdist_group("recording")  # one walk is made once, and looked at by many
-
 
 @pytest.fixture(scope="module")
 def recording() -> Recording:

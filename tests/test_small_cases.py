@@ -67,13 +67,16 @@ def test_as_many_places_as_rooms(name: str, steps: int, rooms: int) -> None:
     assert agent.map.visited.all()
 
 
-def test_no_room_of_a_one_way_ring_is_two_places() -> None:
+def test_a_one_way_ring_has_six_places_after_six_steps() -> None:
     world = load_world(shared("cases/one_way_ring.json"))
     observation, _ = world.reset(seed=0)
     agent = Parts.named("cogmap").make(world, np.random.SeedSequence(0))
+    visited: list[int] = []
     for _ in range(14):
         observation, *_ = world.step(agent.step(observation))
-    assert agent.map.visited.tolist() == [True] * 6
+        visited.append(int(agent.map.visited.sum()))
+    assert visited == [1, 2, 3, 4, 5, *[6] * 9]
+    assert len(agent.map.places) == 6  # nothing is imagined any more once the last way was walked twice
 
 
 def test_a_maze_without_positions() -> None:

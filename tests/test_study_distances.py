@@ -12,7 +12,6 @@ from cogmap.experiments.studies import distances, run_study, study_named
 from cogmap.worlds import MAZES
 
 STUDY: Any = study_named("distances")
-pytestmark = pytest.mark.xdist_group("distances")  # what is walked once is read by all
 
 
 @cache

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
@@ -51,12 +50,7 @@ def explored(name: str, growth: str, seed: int) -> ExploreRun:
     return explore(MAZES[name], agent=Parts(growth=growth), seed=seed)
 
 
-def by_maze(*names: str) -> list[Any]:
-    """Tests of one maze are run by one worker, which makes its walks once."""
-    return [pytest.param(name, marks=pytest.mark.xdist_group(f"exploring {name}")) for name in names]
-
-
-@pytest.mark.parametrize("name", by_maze(*TARGETS))
+@pytest.mark.parametrize("name", TARGETS)
 def test_mazes_of_the_paper_within_target(name: str, study: bool) -> None:
     runs = [explored(name, "predicted", seed) for seed in range(20 if study else 10)]
     steps = [run.steps_to_complete for run in runs]
@@ -73,7 +67,7 @@ def test_mazes_never_seen_before_within_a_quarter_of_the_oracle(name: str, study
     assert np.median(ratios) <= (1.25 if study and "alias" not in name else 1.5)
 
 
-@pytest.mark.parametrize("name", by_maze("3x3_alias", "4x4", "4x4_alias", "tolman"))
+@pytest.mark.parametrize("name", ["3x3_alias", "4x4", "4x4_alias", "tolman"])
 def test_predicted_growth_needs_the_fewest_steps(name: str, study: bool) -> None:
     def mean(growth: str) -> float:
         runs = [explored(name, growth, seed) for seed in range(20 if study else 4)]

@@ -14,7 +14,8 @@ from cogmap.experiments.studies import run_study, study_named
 from cogmap.worlds import MAZES
 
 STUDY = study_named("goals")
-pytestmark = pytest.mark.xdist_group("goals")  # what is walked once is read by many
+
+
 ALIASED = {"3x3_alias", "4x4_alias", "t_maze_alias", "donut", "tolman"}
 
 

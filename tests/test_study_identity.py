@@ -16,9 +16,6 @@ from cogmap.worlds import distinguishable
 SMALL = Identity(cases=("moved once, 3x3", "slip 0.1, 4x4", "torus 3x3"), beside=("cscg", "cscg_along"), most=12)
 
 
-pytestmark = pytest.mark.xdist_group("identity")  # what is walked once is read by many
-
-
 @pytest.fixture(scope="module")
 def rows() -> list[IdentityRow]:
     return SMALL.rows(2)

@@ -23,9 +23,6 @@ BY_3 = shortest_path(MAZE, START, (0, 2), closed=[B])
 STUDY = study_named("insight")
 
 
-pytestmark = pytest.mark.xdist_group("insight")  # what is walked once is read by many
-
-
 @pytest.fixture(scope="module")
 def rows() -> list[Any]:
     return STUDY.rows(1)

@@ -18,9 +18,6 @@ STEM = [(1, 2), (2, 2), FOOT]
 STUDY = study_named("localisation")
 
 
-pytestmark = pytest.mark.xdist_group("localisation")  # what is walked once is read by many
-
-
 @pytest.fixture(scope="module")
 def rows() -> list[Any]:
     return STUDY.rows(3, seed=2)

@@ -16,9 +16,6 @@ STUDY: Any = study_named("martinet")
 SMALL: Any = replace(STUDY, days=2)
 
 
-pytestmark = pytest.mark.xdist_group("martinet")  # what is walked once is read by many
-
-
 @pytest.fixture(scope="module")
 def rows() -> list[Any]:
     return SMALL.rows(2)

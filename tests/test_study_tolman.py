@@ -30,9 +30,6 @@ STUDY: Any = study_named("tolman")
 SMALL: Any = replace(STUDY, runs=2, knob=(1.0,))
 
 
-pytestmark = pytest.mark.xdist_group("tolman")  # what is walked once is read by many
-
-
 @pytest.fixture(scope="module")
 def rows() -> list[Any]:
     return SMALL.rows(2)

@@ -343,8 +343,9 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
             blocked += half * (1.0 - p)
             beside += half * p * known
             shut += half * (1.0 - p) * known
-            wrong += p * way.blocked + (1.0 - p) * way.open
-            right += p * way.open + (1.0 - p) * way.blocked
+            if not way.open % 1.0 or not _whole(way.open + way.blocked):
+                wrong += p * way.blocked + (1.0 - p) * way.open
+                right += p * way.open + (1.0 - p) * way.blocked
             if known and number != other and (same := same_door(h, place, index, other, number)) is not None:
                 undone += 0.5 * same
                 one_way += 0.5 * (1.0 - same)
@@ -358,6 +359,14 @@ def shared(h: Hypothesis, number: int, place: Place) -> Place:
     stayed = _stayed(h, number, place) if any(place.ways[way].stays for way in h.awake) else (0.0, 0.0)
     share = Share(opened, blocked, wrong, right, misread, read, beside, shut, undone, one_way, *stayed)
     return Place(place.sights, place.ways, place.frame, place.position, place.recent, place.into, share)
+
+
+def _whole(looks: float) -> bool:
+    """Whether so many looks are whole ones: parts are left of a door that has changed, not of looks that were not sure.
+
+    Those say themselves how sure they are, and nothing of how often one is wrong.
+    """
+    return abs(looks - round(looks)) < 1e-6
 
 
 def _stayed(h: Hypothesis, number: int, place: Place) -> tuple[float, float]:

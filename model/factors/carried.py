@@ -64,6 +64,11 @@ class Carried(Contexts):
         for store in (self._of, self.peers, self.offers):
             store.resize(places)
 
+    def carried_in(self, place: int) -> str | None:
+        """What is carried in a place, in words; None where nobody knows."""
+        of = int(self._of.values[place])
+        return None if of < 0 else str(self.values[of])
+
     def rooms(self, places: Ints) -> Ints:
         """`[n]` the room of each place, by the first of its places."""
         peers = self.peers.values[places]

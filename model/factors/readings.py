@@ -1,6 +1,6 @@
 """Readings of sensors, checked and brought into one form: labels, likelihoods of labels, ways."""
 
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Collection, Hashable, Iterable, Mapping
 from dataclasses import dataclass
 from math import isfinite
 from typing import Any, cast
@@ -35,11 +35,12 @@ def checked_label(value: Any, sensor: str, declared: Domain) -> Hashable:
     Raises:
         CogmapError: it is none that can be known again.
     """
-    if _is_missing(value) or (value is None and None not in declared):
-        name = "masked" if _is_missing(value) else "None"
-        remedy = "" if name == "masked" else f', or declare the label: Sight("{sensor}", labels=[None])'
-        raise CogmapError(f"observation: {sensor} is {name}; give UNSEEN where nothing was seen{remedy}")
+    missing = _is_missing(value)
     label: Any = value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
+    if missing or (label is None and None not in declared):
+        name = "masked" if missing else "None"
+        remedy = "" if missing else f', or declare the label: Sight("{sensor}", labels=[None])'
+        raise CogmapError(f"observation: {sensor} is {name}; give UNSEEN where nothing was seen{remedy}")
     try:
         hash(label)
     except TypeError as error:
@@ -47,10 +48,9 @@ def checked_label(value: Any, sensor: str, declared: Domain) -> Hashable:
         raise CogmapError(
             f"observation: {sensor} is a {kind}, not hashable; label sights with str, int or tuple"
         ) from error
-    label = plain(label)
     if _has_nan(label):  # it would be a new sight each time
         raise CogmapError(f"observation: {sensor} is NaN, which equals nothing; give UNSEEN where nothing was seen")
-    return label
+    return plain(label)
 
 
 def declared(labels: Any, sensor: str) -> tuple[Hashable, ...]:
@@ -148,8 +148,8 @@ def _is_missing(value: Any) -> bool:
 
 
 def _has_nan(label: Hashable) -> bool:
-    if isinstance(label, tuple):
-        return any(_has_nan(part) for part in cast(tuple[Hashable, ...], label))
+    if isinstance(label, tuple | frozenset):
+        return any(_has_nan(part) for part in cast(Collection[Hashable], label))
     try:
         return bool(label != label)
     except (TypeError, ValueError):  # such as pandas' NA, which is neither equal nor unequal

@@ -248,9 +248,9 @@ class Transition(ModelFactor):
         if seen:
             self.sensed.set((place, action), BLOCKED)
         beyond = self.beyond(place, action)
+        self.add(ELSEWHERE if beyond is None else beyond, place, action, weight * forward)
         if beyond is None:
             return
-        self.add(beyond, place, action, weight * forward)
         inverse = self.motions.inverse[action]
         if changed and inverse >= 0 and self.beyond(beyond, inverse) in (None, place):  # else it is another door
             self.raise_to(beyond, beyond, inverse, -weight * reverse)
@@ -261,7 +261,8 @@ class Transition(ModelFactor):
         rows, least = place * len(self.motions) + actions, -weight * self.rates.impossible[0]
         keys, prior, before = self.table.slots(rows)
         most = np.maximum(before, self.rates.ceiling)
-        evidence = np.where(keys == place, np.minimum(np.maximum(before, least), most), before)
+        shut, elsewhere = np.minimum(np.maximum(before, least), most), np.maximum(before - least, 0.0)
+        evidence = np.where(keys == place, shut, elsewhere)
         self.table.write(rows, keys, prior, evidence)
         sensed = self.sensed.values[place].copy()
         sensed[actions] = BLOCKED

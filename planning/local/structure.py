@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Any, Protocol
 
 from ...model import CogmapError
 
@@ -54,6 +54,13 @@ class Structure:
     start: State  # before the first step, when none of them can be told apart
     _steps: dict[tuple[State, int], State] = field(default_factory=dict[tuple[State, int], State], repr=False)
     _told: dict[Classes, float] = field(default_factory=dict[Classes, float], repr=False)
+    # of each hypothesis: by place and action, where that leads, and the number of what would be sensed there
+    _ahead: tuple[dict[tuple[Hashable, int], tuple[Hashable, int]], ...] = field(init=False, repr=False)
+    _expected: dict[Hashable, int] = field(default_factory=dict[Hashable, int], repr=False)  # numbers of what is sensed
+    asked: dict[str, Any] = field(default_factory=dict[str, Any], repr=False)  # what others worked out of it alone
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "_ahead", tuple({} for _ in self.kept))
 
     @classmethod
     def of(cls, hypotheses: MapHypotheses | None) -> Structure | None:
@@ -105,13 +112,22 @@ class Structure:
 
     def _walked(self, state: State, action: int) -> State:
         places, classes = state
-        ask = self.hypotheses
-        after = tuple(
-            None if place is None else ask.ahead(h, place, action) for h, place in zip(self.kept, places, strict=True)
-        )
+        ahead = [
+            known.get((place, action)) or self._ask(at, place, action)
+            for at, (known, place) in enumerate(zip(self._ahead, places, strict=True))
+        ]
+        after = tuple([to for to, _ in ahead])
         if after == places:
             return state
-        sensed = [None if at is None else (ask.expected(h, at),) for h, at in zip(self.kept, after, strict=True)]
-        numbers: dict[object, int] = {}
-        apart = tuple(numbers.setdefault(key, len(numbers)) for key in zip(classes, sensed, strict=True))
-        return after, apart
+        numbers: dict[tuple[int, int], int] = {}
+        apart = [numbers.setdefault((k, sensed), len(numbers)) for k, (_, sensed) in zip(classes, ahead, strict=True)]
+        return after, tuple(apart)
+
+    def _ask(self, at: int, place: Hashable | None, action: int) -> tuple[Hashable, int]:
+        """Where an action leads under one of those that are walked, and what would be sensed there, as a number."""
+        h, to = self.kept[at], None
+        sensed = -1  # nobody knows, in a place never seen
+        if place is not None and (to := self.hypotheses.ahead(h, place, action)) is not None:
+            sensed = self._expected.setdefault(self.hypotheses.expected(h, to), len(self._expected))
+        found = self._ahead[at][place, action] = to, sensed
+        return found

@@ -17,8 +17,14 @@ def telling_walks(structure: Structure) -> list[Path]:
     """The shortest walks that tell so much, and more than all that are shorter; the last of them tell most.
 
     Breadth first over where the agent would be under each hypothesis, however far, so that an agent in doubt goes where
-    it will know, when all is visited too.
+    it will know, when all is visited too. Who cuts the map and who makes policies both ask.
     """
+    if "telling" not in structure.asked:
+        structure.asked["telling"] = _telling_walks(structure)
+    return structure.asked["telling"]
+
+
+def _telling_walks(structure: Structure) -> list[Path]:
     moves = structure.hypotheses.moves
     queue, seen = deque[tuple[Path, State]]([((), structure.start)]), {structure.start}
     found, best = list[Path](), LEAST_TOLD
