@@ -8,6 +8,9 @@ GREAT = 1.0  # nats of doubt for which a longer way is taken
 class Doubts:
     """The ways of one map that are worth seeing about, by place; costs what has changed.
 
+    Where places lie as they were measured, all of them once anything has: a guess is made of the places at both ends
+    and of how long ways are elsewhere.
+
     Args:
         map_: the map.
     """
@@ -22,7 +25,10 @@ class Doubts:
     def read(self) -> tuple[dict[int, list[tuple[int, float]]], bool]:
         """For each place with such ways the action and the doubt of each; and whether any doubt is great."""
         map_ = self._map
-        changed, self._read = map_.changed_places(self._read, map_.B_s, map_.visits, map_.transitions.walked)
+        stores = map_.B_s, map_.visits, map_.transitions.walked, *map_.pose.stores
+        changed, self._read = map_.changed_places(self._read, *stores)
+        if changed and map_.pose.measures:
+            changed = None
         if changed is None:
             self._of.clear()
             self._great.clear()
