@@ -21,6 +21,9 @@ from typing import Any
 
 import numpy as np
 from cogmap.agent import Agent, Settings
+from cogmap.agent import agent as agent_module
+from cogmap.agent.mapper import Mapper
+from cogmap.agent.recognition import Recognition
 from cogmap.inference.filter import FEW
 from cogmap.planning import POLICIES, Choice, LocalModel, MapGuided, Planner
 from cogmap.planning import planner as planner_module
@@ -35,13 +38,14 @@ Row = dict[str, Any]
 Floats = NDArray[np.float64]
 PARTS: dict[str, tuple[Any, str]] = {
     "infer": (Agent, "_infer"),
+    "hypotheses": (Recognition, "take_in"),
     "window": (Agent, "_remember"),
-    "learn and grow": (Agent, "_learn"),
+    "learn and grow": (Mapper, "learn"),
     "plan: tables": (planner_module, "local_model"),
     "plan: policies": (MapGuided, "make"),
     "plan: rollout": (planner_module, "evaluate"),
     "plan: choice": (Choice, "choose"),
-    "record": (Agent, "_record"),
+    "record": (agent_module, "record_of"),
 }
 """Each part of a step, and the function that does it."""
 
@@ -94,7 +98,9 @@ class Walk:
             observation, *_ = self.world.step(action)
 
 
-def exploring(seed: int, name: str = "4x4", steps: int = 60, *, policies: str = "map_guided", look_ahead: int) -> Walk:
+def exploring(
+    seed: int, name: str = "4x4", steps: int = 60, *, policies: str = "map_guided", look_ahead: int = 6
+) -> Walk:
     """A walk of an agent that knows nothing yet."""
     world = load_world(name)
     world.reset(seed=seed)
@@ -172,7 +178,7 @@ def _observed(seed: int) -> tuple[list[list[float]], Floats]:
                 before = dict(clocks.spent)
                 planning = sum(seconds for part, seconds in spent.items() if part.startswith("plan"))
                 found.append(causes(agent))
-                took.append([1e3 * planning, 1e3 * spent["infer"]])
+                took.append([1e3 * planning, 1e3 * (spent["infer"] + spent["hypotheses"])])
     return found, np.array(took)
 
 
