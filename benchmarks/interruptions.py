@@ -6,18 +6,20 @@
 Forms are an explorer, one that is moved now and then, one that errs in everything and is in doubt, one that is lost,
 one that is told all that percepts can say, one without poses, one in the plane, one whose frame turns, and the paper's;
 `parts` fails at a call of a part or an observation of somebody else instead, all of whose methods may fail. Each trial
-takes an agent after a random number of steps, breaks its next one off before a random line of the library (`parts`: at
-a random call), compares all that the next steps depend on, and has it take `--on` steps beside a twin that was left
-alone.
+breaks the next step of an agent off before a random line of the library (`parts`: at a random call), compares all that
+the next steps depend on, and has it take `--on` steps beside a twin that was left alone. `EACH` trials, in forks of
+the process, begin with the same agent, which then walks a random number of steps to the next ones.
 """
 
 from __future__ import annotations
 
 import copy
+import os
 import random
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +40,9 @@ from interrupts import content, lines_of, was_interrupted
 Seen = dict[str, Any]
 Walk = Iterator[tuple[Agent, Seen]]
 LONGEST = 40
+
+EACH = 10
+"""Trials that begin with one agent."""
 
 
 def walk(world: Any, agent: Agent, see: Callable[[Seen], Seen] = dict, *, moved: int = 0, seed: int = 0) -> Walk:
@@ -129,39 +134,71 @@ FORMS: dict[str, Callable[[int], Walk]] = {
 }  # fmt: skip
 
 
-def broken_off(agent: Agent, seen: Seen, rng: random.Random, *, calls: bool) -> bool:
-    """Break the step off somewhere; whether it was."""
-    if not calls:
-        lines = lines_of(lambda: copy.deepcopy(agent).step(seen))
-        return was_interrupted(lambda: agent.step(seen), rng.randrange(1, lines + 1))
-    CLOCK.set(None)
-    copy.deepcopy(agent).step(Observation(seen))
-    CLOCK.set(rng.randrange(1, CLOCK.calls + 1))
-    try:
-        agent.step(Observation(seen))
-    except Failing:
-        return True
-    finally:
+class Left:
+    """What becomes of an agent in the next steps if it is left alone.
+
+    Args:
+        agent: is left as it is.
+        seen: what it senses in all of them.
+        calls: whether calls of parts of somebody else are counted, or lines.
+        on: steps after the first.
+    """
+
+    def __init__(self, agent: Agent, seen: Seen, *, calls: bool, on: int) -> None:
+        self.before, self._calls = _content(agent), calls
+        counted = copy.deepcopy(agent)
         CLOCK.set(None)
-    return False
+        lines = 0 if calls else lines_of(lambda: counted.step(seen))
+        if calls:
+            counted.step(Observation(seen))
+        self.places = CLOCK.calls if calls else lines
+        twin = copy.deepcopy(agent)
+        self.actions, self.after = [twin.step(seen)], _content(twin)
+        self.actions += [twin.step(seen) for _ in range(on)]
+        self.later = _content(twin)
 
-
-def verdict(agent: Agent, seen: Seen, rng: random.Random, *, calls: bool, on: int) -> str:
-    """`before`, `after`, or what is wrong; the agent is left alone."""
-    torn, twin = copy.deepcopy(agent), copy.deepcopy(agent)
-    before, action = _content(agent), twin.step(seen)
-    if broken_off(torn, seen, rng, calls=calls) and _content(torn) == before:
-        found = "before"
-        if torn.step(seen) != action:
-            return "goes on otherwise"
-    else:
+    def verdict(self, torn: Agent, seen: Seen, at: int) -> str:
+        """`before`, `after`, or what is wrong, of an agent whose step is broken off at a line or call."""
         found = "after"
-    if _content(torn) != _content(twin):
-        return "between"
-    for _ in range(on):
-        if twin.step(seen) != torn.step(seen):
+        if self._broken_off(torn, seen, at) and _content(torn) == self.before:
+            found = "before"
+            if torn.step(seen) != self.actions[0]:
+                return "goes on otherwise"
+        elif _content(torn) != self.after:
+            return "between"
+        if [torn.step(seen) for _ in self.actions[1:]] != self.actions[1:]:
             return "walks on otherwise"
-    return found if _content(torn) == _content(twin) else "is another later"
+        return found if _content(torn) == self.later else "is another later"
+
+    def _broken_off(self, agent: Agent, seen: Seen, at: int) -> bool:
+        if not self._calls:
+            return was_interrupted(lambda: agent.step(seen), at)
+        CLOCK.set(at)
+        try:
+            agent.step(Observation(seen))
+        except Failing:
+            return True
+        finally:
+            CLOCK.set(None)
+        return False
+
+
+def forked(work: Callable[[], str]) -> str:
+    """What a fork of this process answers; why it ended, where it answers nothing."""
+    ours, theirs = os.pipe()
+    child = os.fork()
+    if not child:
+        try:
+            os.write(theirs, work().encode())
+        except BaseException as error:
+            os.write(theirs, f"failed: {type(error).__name__} {error}"[:200].encode())
+        finally:
+            os._exit(0)
+    os.close(theirs)
+    with os.fdopen(ours, "rb") as answers:
+        said = answers.read().decode()
+    _, status = os.waitpid(child, 0)
+    return said or f"ended with {status}"
 
 
 def _content(agent: Agent) -> Any:
@@ -180,23 +217,24 @@ def main(given: Sequence[str] | None = None) -> int:
     asked = parser.parse_args(given)
     rows: list[dict[str, Any]] = []
     for form in asked.forms:
-        rng, begun = random.Random(f"{form} {asked.seed}"), time.process_time()
+        rng, begun = random.Random(f"{form} {asked.seed}"), time.monotonic()
         found: dict[str, int] = {}
-        walking = FORMS[form](asked.seed)
-        for trial in range(asked.trials):
-            if trial % 20 == 0:
-                walking = FORMS[form](asked.seed + trial)
-                ahead = rng.randrange(LONGEST)
-            else:
-                ahead = rng.randrange(3)
-            for _ in range(ahead):
+        walking, walked = FORMS[form](asked.seed), LONGEST
+        for trial in range(0, asked.trials, EACH):
+            if walked >= LONGEST:
+                walking, walked = FORMS[form](asked.seed + trial), 0
+            for _ in range(rng.randrange(LONGEST // 4)):
                 next(walking)
+                walked += 1
             agent, seen = next(walking)
-            result = verdict(agent, seen, rng, calls=form == "parts", on=asked.on)
-            found[result] = found.get(result, 0) + 1
+            left = Left(agent, seen, calls=form == "parts", on=asked.on)
+            for _ in range(min(EACH, asked.trials - trial)):
+                at = rng.randrange(1, left.places + 1)
+                result = forked(partial(left.verdict, agent, seen, at))
+                found[result] = found.get(result, 0) + 1
         torn = asked.trials - found.get("before", 0) - found.get("after", 0)
         rows.append({"form": form, "trials": asked.trials, "torn": torn, "found": found})
-        each = (time.process_time() - begun) / asked.trials
+        each = (time.monotonic() - begun) / asked.trials
         print(f"{form:10} torn {torn} of {asked.trials}  {found}  {each:.2f} s each", flush=True)
     write_json(asked.json, {"seed": asked.seed, "rows": rows})
     return int(any(row["torn"] for row in rows))

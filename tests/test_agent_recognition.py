@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from itertools import combinations
 from math import exp
 from pathlib import Path
@@ -16,7 +17,21 @@ from cogmap.experiments.running import Moment
 from cogmap.inference import TrackerOptions, indistinguishable, infer
 from cogmap.inference.hypotheses import Sensed, Tracker, WayScheme
 from cogmap.model import CogmapError, NoPose, Sight
-from cogmap.worlds import MAZES, MazeEnv, NoisyWorld, UnseenWays, comb, hall, load_world, place_of, ring, torus
+from cogmap.worlds import (
+    GRID,
+    MAZES,
+    MazeEnv,
+    NoisyWorld,
+    UnseenWays,
+    comb,
+    hall,
+    labyrinth,
+    load_world,
+    place_of,
+    ring,
+    torus,
+)
+from walks import assert_map_is_sound
 
 
 def walked(world: Any, agent: Agent, steps: int, *, seed: int = 0, moves: dict[int, Any] | None = None) -> Trail:
@@ -334,3 +349,39 @@ def test_what_has_faded_stays_faded_when_the_map_is_built_anew() -> None:
     counts = [transitions.table.concentrations(row) for row in transitions.rows(np.array([now, long_ago])).tolist()]
     assert max(counts[names.index("up")].values()) > 1.0
     assert max(counts[len(names) + names.index("left")].values()) < 0.1
+
+
+def test_a_large_map_is_changed_at_its_end_to_what_it_would_be_if_it_was_built_anew() -> None:
+    """Put elsewhere and shown a label that no place has, it takes places for new that it knows, for some steps."""
+    rng = np.random.default_rng(0)
+    maze = labyrinth(100, loops=0.2, sights=20, rng=rng)
+    options = Settings(look_ahead=1, hypotheses=TrackerOptions(most=6))
+    agent, world = Agent(GRID, map=maze.to_networkx(), settings=options, seed=0), MazeEnv(maze)
+    observation, _ = world.reset(seed=0)
+    taken = 0
+    for step in range(20):
+        if step % 10 == 5:
+            room = maze.rooms[int(rng.integers(100))]
+            observation = {**world.displace(room), "sight": ("new", step)}
+        before = len(agent.map.places)
+        observation = world.step(agent.step(observation))[0]
+        taken += sum(event.kind == "retract" and event.index < before for event in agent.trace[-1].grown)
+    assert taken >= 2
+    assert_map_is_sound(agent.map)
+    anew = copy.deepcopy(agent)
+    mirror, now = anew._recognition.mirror, anew._recognition._now
+    mirror._rebuild(now, mirror.places, mirror._records, step=anew.steps)
+    assert anew._recognition.mirror.places.keys() == agent._recognition.mirror.places.keys()
+    for number in agent._recognition.mirror.places:
+        assert _ways_of(agent, number) == _ways_of(anew, number)
+
+
+def _ways_of(agent: Agent, number: int) -> list[tuple[object, float]]:
+    """Where each way of a place of the best hypothesis leads in the map, and whether it is believed blocked."""
+    map_, places = agent.map, agent._recognition.mirror.places
+    numbers = {place: number for number, place in places.items()}
+    ahead = [map_.beyond(places[number], action) for action in range(len(map_.motions))]
+    blocked = map_.transitions.blocked(np.array([places[number]]))[0].round(2).tolist()
+    return [
+        (None if to is None else numbers.get(to, map_.position(to)), p) for to, p in zip(ahead, blocked, strict=True)
+    ]

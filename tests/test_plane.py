@@ -93,6 +93,22 @@ def test_a_place_between_two_that_look_at_each_other_is_not_left_for_the_end() -
     assert len(entered) == len(world.unwrapped.chart.places)
 
 
+def test_an_agent_that_was_saved_and_loaded_goes_where_the_same_one_goes(tmp_path: Any) -> None:
+    """What is doubted of its ways does not depend on what it remembers of earlier plans."""
+    world = ListedWays(grid(3, 4, sights=2))
+    agent = agent_of(world)
+    observation, _ = world.reset(seed=0)
+    for step in range(18):
+        loaded = agent
+        if step > 13:
+            agent.save(tmp_path / "agent.npz")
+            loaded = Agent.load(tmp_path / "agent.npz")
+        action = agent.step(observation)
+        assert loaded is agent or loaded.step(observation) == action
+        assert loaded.plan.policy.tolist() == agent.plan.policy.tolist()
+        observation = world.step(action)[0]
+
+
 def test_positions_are_those_that_were_measured(tmp_path: Any) -> None:
     """Also after the agent was saved and loaded in between; it walks on as it would have."""
     world = ListedWays(grid(3, 3, sights=2))
