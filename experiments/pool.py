@@ -11,7 +11,8 @@ from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future,
 from contextlib import contextmanager
 from multiprocessing.context import SpawnContext, SpawnProcess
 from queue import Empty, SimpleQueue
-from threading import Thread
+from threading import Thread, current_thread, main_thread
+from types import FrameType
 from typing import Any, ParamSpec, TypeVar
 
 from ..model import CogmapError
@@ -206,20 +207,32 @@ class _Processes(ProcessPoolExecutor):
         self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
     ) -> Future[Result]:
         try:
-            return self._submitted(fn, *args, **kwargs)
-        except OSError as error:  # processes start here
+            with _ctrl_c_waits():  # processes start here
+                return super().submit(fn, *args, **kwargs)
+        except OSError as error:
             raise _no_process(error, self._max_workers) from error  # type: ignore[attr-defined]
 
-    def _submitted(
-        self, fn: Callable[Parameters, Result], /, *args: Parameters.args, **kwargs: Parameters.kwargs
-    ) -> Future[Result]:
-        if not hasattr(signal, "pthread_sigmask"):
-            return super().submit(fn, *args, **kwargs)
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # processes start here, and inherit it
-        try:
-            return super().submit(fn, *args, **kwargs)
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+@contextmanager
+def _ctrl_c_waits() -> Generator[None]:
+    """Processes that start within never see it; here it is heard afterwards, or one would be told half of its work."""
+    if current_thread() is not main_thread() or not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    heard: list[tuple[int, FrameType | None]] = []
+
+    def hear(number: int, frame: FrameType | None) -> None:
+        heard.append((number, frame))
+
+    before = signal.signal(signal.SIGINT, hear)
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # is inherited
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        signal.signal(signal.SIGINT, before)
+        if heard and callable(before):
+            before(*heard[0])
 
 
 def _no_process(error: OSError, jobs: int) -> CogmapError:

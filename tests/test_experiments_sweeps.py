@@ -9,7 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, ThreadPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -437,3 +437,26 @@ def test_processes_that_cannot_be_started_are_one_line() -> None:
 def test_more_processes_than_a_machine_has_are_refused() -> None:
     with pytest.raises(CogmapError, match="jobs is 100000; use 1 to 1024"), workers(jobs=100_000):
         pytest.fail("it began")
+
+
+def test_ctrl_c_waits_until_a_process_has_been_started(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Or else it would be told half of what it needs, and say so."""
+    started: list[bool] = []
+    submit = ProcessPoolExecutor.submit
+
+    def interrupted(*args: Any) -> Any:
+        os.kill(os.getpid(), signal.SIGINT)
+        future = submit(*args)
+        started.append(True)
+        return future
+
+    monkeypatch.setattr(ProcessPoolExecutor, "submit", interrupted)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may have had it ignored
+    try:
+        with workers(jobs=2) as executor:
+            assert executor is not None
+            with pytest.raises(KeyboardInterrupt):
+                executor.submit(abs, -1)
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert started == [True]
