@@ -19,7 +19,6 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
-from statistics import median
 from typing import Any
 
 import numpy as np
@@ -44,7 +43,7 @@ def walk(form: str, steps: int, seed: int) -> Row:
     world: Any = NoisyWorld(MazeEnv(maze), **noise) if noise else MazeEnv(maze)
     agent, rng = Agent(world.motions, seed=seed, keep=100), np.random.default_rng(seed)
     observation, _ = world.reset(seed=seed)
-    seconds, held = list[float](), list[float]()
+    seconds, held = np.full(steps, np.nan), list[float]()  # all of it from the start, or it would count as growth
     for step in range(steps):
         if displaced:
             observation = world.displace(maze.rooms[int(rng.integers(len(maze.rooms)))])
@@ -52,12 +51,12 @@ def walk(form: str, steps: int, seed: int) -> Row:
             observation = {**observation, "sight": f"label {step}"}
         begin = time.process_time()
         action = agent.step(observation)
-        seconds.append(time.process_time() - begin)
+        seconds[step] = time.process_time() - begin
         observation = world.step(action)[0]
         if step + 1 in (max(steps // 5, 1), steps):
             held.append(megabytes())
     tenth = max(steps // 10, 1)
-    first, last = median(seconds[tenth : 2 * tenth] or seconds), median(seconds[-tenth:])
+    first, last = float(np.median(seconds[min(tenth, steps - 1) : 2 * tenth])), float(np.median(seconds[-tenth:]))
     return {
         "form": form, "steps": steps, "seed": seed, "first_ms": 1e3 * first, "last_ms": 1e3 * last,
         "ratio": last / first, "mb": held[-1], "growth": held[-1] / held[0],
