@@ -36,6 +36,12 @@ def test_there_and_back_and_round(rows: list[Any]) -> None:
         assert row.steps[-1].action == "stay"
 
 
+def test_an_agent_whose_map_lacks_the_room_is_counted_too() -> None:
+    (row,) = DONUT.rows(1, seed=9)
+    assert row.met_closed_room
+    assert all(0.0 <= p <= 1.0 for step in row.steps for p in step.way_open.values())
+
+
 def test_the_door_is_believed_closed_once_it_was_met(rows: list[Any]) -> None:
     for row in rows:
         left = [step.way_open["from the left"] for step in row.steps]

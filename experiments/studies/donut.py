@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...agent import Settings
+from ...model import CognitiveMap
 from ...views import BLUE, VERMILION
 from ...worlds import MAZES, Label, Position, shortest_path
 from .. import Moment, Session, explored, mean, number
@@ -117,8 +118,13 @@ def _step(session: Session) -> DonutStep:
         probability=float(plan.probability[plan.chosen]),
         first_action=dict(zip(names, plan.action_probability.tolist(), strict=True)),
         paths=imagined_paths(plan, map_, session.start),
-        way_open={name: float(1.0 - map_.blocked(np.array([at]))[0, way]) for name, (at, way) in doors.items()},
+        way_open={name: _open(map_, at, way) for name, (at, way) in doors.items()},
     )
+
+
+def _open(map_: CognitiveMap, at: int | None, way: int) -> float:
+    """P(open) of a way; nothing is known of one of a place that the map does not have."""
+    return 0.5 if at is None else float(1.0 - map_.blocked(np.array([at]))[0, way])
 
 
 def _summary(rows: Sequence[DonutRow]) -> dict[str, Any]:
